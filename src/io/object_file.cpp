@@ -1,0 +1,230 @@
+#include "nade/io/object_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "nade/io/assets.h"
+#include "nade/mesh.h"
+
+namespace nade {
+namespace {
+
+constexpr double kDefaultRadius = 0.15;
+constexpr std::string_view kSpherePrefix = "sphere:";
+
+Error misuse(std::string message) { return {ErrorCode::out_of_range, std::move(message)}; }
+
+MeshPlace top_place(const Vec3& point, const Vec3& normal) {
+  // -Z, the way of the stroke, is the world's as far as the surface allows.
+  Vec3 back = Vec3::UnitZ() - normal * normal.z();
+  if (back.norm() < 1e-6) back = Vec3::UnitY() - normal * normal.y();
+  back.normalize();
+  Eigen::Matrix3d axes;
+  axes << normal.cross(back), normal, back;
+  return {"top", {point, Quat(axes)}};
+}
+
+LoadedObject make_plane(const std::string& spec) {
+  LoadedObject object;
+  object.spec = spec;
+  object.surface = std::make_unique<PlaneSurface>();
+  object.places.push_back(top_place(Vec3::Zero(), Vec3::UnitY()));
+  return object;
+}
+
+LoadedObject make_sphere(const std::string& spec, double radius_m) {
+  LoadedObject object;
+  object.spec = spec;
+  object.surface = std::make_unique<SphereSurface>(radius_m);
+  object.base.pose.position = Vec3(0.0, -radius_m, 0.0);
+  object.places.push_back(top_place(Vec3::Zero(), Vec3::UnitY()));
+  return object;
+}
+
+Result<LoadedObject> make_sized_sphere(const std::string& spec) {
+  const char* const first = spec.data() + kSpherePrefix.size();
+  const char* const last = spec.data() + spec.size();
+  double radius_m = 0.0;
+  const auto [end, code] = std::from_chars(first, last, radius_m);
+  if (code != std::errc{} || end != last || !std::isfinite(radius_m) || radius_m <= 0.0) {
+    return misuse(
+        fmt::format("object {}: expected a radius above 0 in metres after 'sphere:'", spec));
+  }
+  return make_sphere(spec, radius_m);
+}
+
+Vec3 area_centroid(const TriangleSoup& soup) {
+  Vec3 sum = Vec3::Zero();
+  double total = 0.0;
+  for (const auto& [i, j, k] : soup.triangles) {
+    const Vec3 a = soup.vertices[i].cast<double>();
+    const Vec3 b = soup.vertices[j].cast<double>();
+    const Vec3 c = soup.vertices[k].cast<double>();
+    const double weight = (b - a).cross(c - a).norm();
+    sum += weight / 3.0 * (a + b + c);
+    total += weight;
+  }
+  return sum / total;
+}
+
+/// Where a ray down through the centroid meets the mesh; beside it, the highest vertex.
+MeshPlace top_of(const TriangleSoup& soup, const Surface& surface) {
+  const auto highest = std::max_element(
+      soup.vertices.begin(), soup.vertices.end(),
+      [](const Eigen::Vector3f& a, const Eigen::Vector3f& b) { return a.y() < b.y(); });
+  const Vec3 peak = highest->cast<double>();
+  const Vec3 centroid = area_centroid(soup);
+  const double height = peak.y() - centroid.y();
+  Ray down;
+  down.origin = Vec3(centroid.x(), peak.y() + 0.1 + height, centroid.z());
+  down.direction = -Vec3::UnitY();
+  if (const auto hit = surface.first_hit(down)) return top_place(hit->point, hit->normal);
+  SurfaceHint hint;
+  const auto nearest = surface.closest_point(peak, std::numeric_limits<double>::infinity(), hint);
+  return nearest ? top_place(nearest->point, nearest->normal) : top_place(peak, Vec3::UnitY());
+}
+
+std::vector<std::string> warnings_about(const MeshReport& report, const std::string& spec) {
+  std::vector<std::string> warnings;
+  if (report.triangles_degenerate + report.triangles_duplicate > 0) {
+    warnings.push_back(fmt::format("{}: {} triangles without area and {} duplicates are left out",
+                                   spec, report.triangles_degenerate, report.triangles_duplicate));
+  }
+  if (report.triangles_turned > 0) {
+    warnings.push_back(fmt::format("{}: {} triangles wound against their neighbours are turned",
+                                   spec, report.triangles_turned));
+  }
+  if (report.solid == MeshSolid::defective) {
+    warnings.push_back(fmt::format(
+        "{}: {} edges with one triangle and {} with more than two: what is inside is told by the "
+        "winding number",
+        spec, report.border_edges, report.nonmanifold_edges));
+  }
+  if (report.solid == MeshSolid::sheet) {
+    warnings.push_back(
+        fmt::format("{}: not closed: taken as a sheet, solid on its back side", spec));
+  }
+  return warnings;
+}
+
+Result<LoadedObject> make_mesh(const std::string& spec, const std::string& path) {
+  Result<MeshFile> file = load_mesh(path);
+  if (!file) return file.error();
+  auto surface = MeshSurface::build(file->soup, path);
+  if (!surface) return surface.error();
+  LoadedObject object;
+  object.spec = spec;
+  object.warnings = warnings_about((*surface)->report(), spec);
+  object.places = std::move(file->places);
+  object.surface = std::move(surface).value();
+  if (object.places.empty()) object.places.push_back(top_of(file->soup, *object.surface));
+  object.soup = std::move(file->soup);
+  return object;
+}
+
+/// `count` finite numbers under `key`; no value where there are none.
+std::optional<std::vector<double>> numbers(const nlohmann::json& array, std::size_t count) {
+  if (!array.is_array() || array.size() != count) return std::nullopt;
+  std::vector<double> values;
+  for (const auto& element : array) {
+    if (!element.is_number() || !std::isfinite(element.get<double>())) return std::nullopt;
+    values.push_back(element.get<double>());
+  }
+  return values;
+}
+
+Error bad_key(const std::string& name, std::string_view key, std::string_view expected) {
+  return {ErrorCode::bad_value, fmt::format("{}: header: {}: expected {}", name, key, expected)};
+}
+
+Result<Placement> placement_from(const nlohmann::json& header, const std::string& name) {
+  Placement placement;
+  if (header.contains("at")) {
+    const auto at = numbers(header["at"], 3);
+    if (!at) return bad_key(name, "at", "3 numbers");
+    placement.pose.position = Eigen::Map<const Vec3>(at->data());
+  }
+  if (header.contains("turn")) {
+    const auto turn = numbers(header["turn"], 4);
+    const Quat rotation = turn ? Quat(turn->data()) : Quat(0, 0, 0, 0);
+    if (!(rotation.norm() > 1e-6)) return bad_key(name, "turn", "4 numbers, not all 0");
+    placement.pose.rotation = rotation.normalized();
+  }
+  if (header.contains("scale")) {
+    const auto& scale = header["scale"];
+    if (!scale.is_number() || !(scale.get<double>() > 0.0)) {
+      return bad_key(name, "scale", "a number above 0");
+    }
+    placement.scale = scale.get<double>();
+  }
+  return placement;
+}
+
+}  // namespace
+
+Placement composed(const Placement& outer, const Placement& inner) {
+  return {{outer.to_world(inner.pose.position), outer.pose.rotation * inner.pose.rotation},
+          outer.scale * inner.scale};
+}
+
+Object LoadedObject::placed(const Placement& placement) const {
+  return Object(*surface, composed(placement, base));
+}
+
+Result<MeshPlace> LoadedObject::place(std::string_view name) const {
+  const std::string_view wanted = name.empty() ? "back" : name;
+  for (const MeshPlace& place : places) {
+    if (place.name == wanted) return place;
+  }
+  if (name.empty()) return places.front();
+  std::string known;
+  for (const MeshPlace& place : places) known += (known.empty() ? "" : ", ") + place.name;
+  return misuse(fmt::format("object {}: no place '{}': expected one of {}", spec, name, known));
+}
+
+Result<LoadedObject> load_object(const std::string& spec) {
+  if (spec == "plane") return make_plane(spec);
+  if (spec == "sphere") return make_sphere(spec, kDefaultRadius);
+  if (spec.starts_with(kSpherePrefix)) return make_sized_sphere(spec);
+  if (spec == "dog") {
+    const Result<std::string> path = find_asset("dog.glb");
+    if (!path) return path.error();
+    return make_mesh(spec, *path);
+  }
+  if (spec.find_first_of("./") == std::string::npos) {
+    return misuse(fmt::format(
+        "object '{}': expected plane, sphere, sphere:RADIUS, dog or a mesh file", spec));
+  }
+  return make_mesh(spec, spec);
+}
+
+std::string with_placing(const std::string& json_object, const ObjectPlacing& placing) {
+  auto header = json_object.empty() ? nlohmann::ordered_json::object()
+                                    : nlohmann::ordered_json::parse(json_object, nullptr, false);
+  NADE_ASSERT(header.is_object());
+  const Pose& pose = placing.placement.pose;
+  header["object"] = placing.object;
+  header["at"] = {pose.position.x(), pose.position.y(), pose.position.z()};
+  header["turn"] = {pose.rotation.x(), pose.rotation.y(), pose.rotation.z(), pose.rotation.w()};
+  header["scale"] = placing.placement.scale;
+  return header.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+Result<std::optional<ObjectPlacing>> placing_from(const std::string& json_object,
+                                                  const std::string& name) {
+  if (json_object.empty()) return std::optional<ObjectPlacing>();
+  const auto header = nlohmann::json::parse(json_object, nullptr, false);
+  if (!header.is_object() || !header.contains("object")) return std::optional<ObjectPlacing>();
+  if (!header["object"].is_string()) return bad_key(name, "object", "a text");
+  const Result<Placement> placement = placement_from(header, name);
+  if (!placement) return placement.error();
+  return std::optional(ObjectPlacing{header["object"].get<std::string>(), *placement});
+}
+
+}  // namespace nade
