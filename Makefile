@@ -1,0 +1,48 @@
+# The front door. Each target installs and fetches what it needs first; what is there already is
+# neither installed nor fetched again.
+.NOTPARALLEL:
+.DEFAULT_GOAL := help
+.PHONY: help demo test build bench asan tidy format format-check install clean setup
+
+PREFIX ?= /usr/local
+sources = $(shell find apps assets bench examples include src tests -name '*.h' -o -name '*.cpp')
+
+help: ## List these targets
+	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 14
+
+demo: setup ## Strokes on three objects, corrected and measured: a table under build/demo
+	@scripts/build release nade_cli dog_mesh
+	@scripts/demo
+
+test: setup ## Everything that has to hold: style, builds, tests, sanitizers
+	@scripts/test
+
+build: setup ## The library and the command line, optimised, in build/release
+	@scripts/build release
+
+bench: setup ## Medians and 99th percentiles on this machine
+	@scripts/bench
+
+asan: setup ## The tests under the address and undefined-behaviour sanitizers
+	@scripts/build asan
+	@ctest --preset asan -j "$$(nproc)"
+
+tidy: setup ## clang-tidy over our sources
+	@scripts/build release
+	@scripts/tidy
+
+format: setup ## Lay out the sources as .clang-format says
+	@clang-format -i $(sources)
+
+format-check: setup ## Whether `make format` would change anything
+	@clang-format --dry-run --Werror $(sources)
+
+install: build ## Into PREFIX, /usr/local if not given
+	@cmake --install build/release --prefix '$(PREFIX)'
+
+clean: ## Remove what was built; what was installed and fetched stays
+	@rm -rf build
+
+setup:
+	@scripts/install_packages
+	@scripts/fetch_assets
