@@ -1,0 +1,43 @@
+# Installing, and the package that find_package(nade) finds.
+include(CMakePackageConfigHelpers)
+
+set(nade_libraries nade)
+if(NADE_BUILD_IO)
+  list(APPEND nade_libraries nade_io)
+endif()
+if(NADE_BUILD_EVAL)
+  list(APPEND nade_libraries nade_eval)
+endif()
+install(TARGETS ${nade_libraries} EXPORT nadeTargets)
+install(EXPORT nadeTargets NAMESPACE nade:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/nade)
+
+install(DIRECTORY include/nade DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+  FILES_MATCHING PATTERN "*.h"
+  PATTERN "io" EXCLUDE
+  PATTERN "eval" EXCLUDE)
+if(NADE_BUILD_IO)
+  install(DIRECTORY include/nade/io DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nade)
+endif()
+if(NADE_BUILD_EVAL)
+  install(DIRECTORY include/nade/eval DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nade)
+endif()
+
+configure_package_config_file(cmake/nadeConfig.cmake.in nadeConfig.cmake
+  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/nade)
+write_basic_package_version_file(nadeConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES "${PROJECT_BINARY_DIR}/nadeConfig.cmake" "${PROJECT_BINARY_DIR}/nadeConfigVersion.cmake"
+  DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/nade)
+
+# Written while installing, because the prefix may be chosen only then.
+install(CODE "set(CMAKE_INSTALL_LIBDIR \"${CMAKE_INSTALL_LIBDIR}\")
+set(CMAKE_INSTALL_INCLUDEDIR \"${CMAKE_INSTALL_INCLUDEDIR}\")
+set(PROJECT_VERSION \"${PROJECT_VERSION}\")
+set(PROJECT_DESCRIPTION \"${PROJECT_DESCRIPTION}\")
+configure_file(\"${PROJECT_SOURCE_DIR}/cmake/nade.pc.in\" \"${PROJECT_BINARY_DIR}/nade.pc\" @ONLY)")
+install(FILES "${PROJECT_BINARY_DIR}/nade.pc" DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+
+if(NADE_BUILD_APPS)
+  install(TARGETS nade_cli)
+  install(DIRECTORY "${NADE_SHARE_DIR}/" DESTINATION ${CMAKE_INSTALL_DATADIR}/nade)
+endif()
+install(FILES LICENSE THIRD_PARTY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -1,0 +1,13 @@
+# What every target of ours is compiled with. Nothing global, so that a project that adds nade
+# as a subdirectory keeps its own flags.
+function(nade_target target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
+  target_compile_options(${target} PRIVATE
+    $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall;-Wextra;-Wconversion;-Wshadow>)
+  if(NADE_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${NADE_SANITIZE} -fno-sanitize-recover=all
+                                             -fno-omit-frame-pointer)
+    target_link_options(${target} PUBLIC -fsanitize=${NADE_SANITIZE})
+  endif()
+endfunction()
