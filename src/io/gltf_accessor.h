@@ -1,0 +1,32 @@
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "nade/status.h"
+
+namespace nade::gltf {
+
+/// Reads a .glb or .gltf file, told apart by content; images are left out.
+[[nodiscard]] Result<tinygltf::Model> read_model(const std::string& path);
+
+/// What of a model is being read, for the sentence of an error.
+struct AccessorRef {
+  const tinygltf::Model& model;
+  const std::string& path;
+  const char* what;  ///< "POSITION", …
+  int index;         ///< of the accessor, as the file has it
+};
+
+/// All numbers of an accessor, `components` to an element (3 for VEC3, 16 for MAT4); integers are
+/// made fractions where the accessor says so. Checked against the buffer's real size.
+[[nodiscard]] Result<std::vector<float>> read_floats(const AccessorRef& ref, int components);
+
+/// As `read_floats`, for unsigned integers.
+[[nodiscard]] Result<std::vector<std::uint32_t>> read_integers(const AccessorRef& ref,
+                                                               int components);
+
+}  // namespace nade::gltf
