@@ -1,0 +1,100 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "nade/contact.h"
+#include "nade/fingers.h"
+#include "nade/palm.h"
+
+namespace nade {
+
+enum class Method : std::uint8_t {
+  none,   ///< the tracked hand, bit for bit
+  paper,  ///< contact rays, seated palm, laid fingers (2023)
+};
+
+/// Where the length of a fingertip's c_j comes from. The palm's is always the mesh's.
+enum class SkinSource : std::uint8_t {
+  radii,  ///< the tracker's fingertip radii where they are believable, else the mesh
+  mesh,   ///< the hand mesh, scaled to the person's hand
+};
+
+struct CorrectorOptions {
+  Method method = Method::paper;
+  ContactOptions contact;
+  FingerOptions fingers;
+  SkinSource skin_source = SkinSource::radii;
+  /// c_j at the generic hand's size; measure it on your own hand mesh if you draw another.
+  SkinDepths skin = generic_skin_depths();
+  /// Wrist to middle knuckle of the mesh `skin` was measured on, metres, > 0.
+  double skin_hand_length_m = kGenericHandLength;
+  /// What is left of a correction where it cannot be continuous (an edge, a teleport, tracking
+  /// lost and found) fades over this time. Seconds, 0 (at once) to 1.
+  double release_s = 0.2;
+};
+
+/// All open points as the paper's bare text has them, for comparison.
+[[nodiscard]] CorrectorOptions paper_literal();
+
+/// Fingertip radii a tracker really measured, palm left 0: positive, between 3 and 15 mm, not
+/// one value for every joint.
+[[nodiscard]] std::optional<SkinDepths> believable_radii(const HandPose& hand) noexcept;
+
+/// What to draw, and why.
+struct CorrectedHand {
+  HandPose pose;
+  HandStatus status = HandStatus::untracked;
+  Contacts contacts{};
+  std::array<double, kDigitCount> ray_turn_rad{};
+};
+
+/// A correction as a change of the tracked hand: the palm's motion and what the digits bend.
+struct Correction {
+  PalmCorrection palm;
+  HandBend bend = no_bend();
+};
+
+/// The tracked hand with a correction applied.
+[[nodiscard]] HandPose apply(const Correction& correction, const HandPose& tracked) noexcept;
+
+/// Corrects one hand, frame by frame. Keep one for each hand; it is the only thing with memory.
+class HandCorrector {
+ public:
+  explicit HandCorrector(const CorrectorOptions& options = {});
+
+  /// The hand to draw for a tracked hand at `time_ns` (any origin). Never allocates or throws;
+  /// the pose is finite if the tracked one is. A pose that cannot be used comes back as it is,
+  /// status `untracked`. Frames in which the hand is missing are simply not passed. Time that
+  /// goes back, or the other hand, starts anew.
+  const CorrectedHand& update(const HandPose& tracked, const Object& object,
+                              std::int64_t time_ns) noexcept;
+
+  /// Forgets everything about the hand so far.
+  void reset() noexcept;
+
+  [[nodiscard]] const CorrectorOptions& options() const { return options_; }
+
+ private:
+  struct Frame {
+    HandPose tracked;
+    Correction correction;  ///< as computed, before any release
+    std::int64_t time_ns = 0;
+  };
+
+  void start_frame(const HandPose& tracked, std::int64_t time_ns) noexcept;
+  [[nodiscard]] SkinDepths skin_of(const HandPose& tracked) noexcept;
+  void release(const HandPose& tracked, const Correction& correction,
+               std::int64_t time_ns) noexcept;
+
+  CorrectorOptions options_;
+  ContactMemory memory_;
+  CorrectedHand result_;
+  std::optional<Frame> last_;
+  double hand_length_m_ = 0.0;  ///< mean over the frames so far: bones do not grow
+  std::int64_t frames_ = 0;
+  Correction residue_;  ///< what is being released
+  std::optional<std::int64_t> release_start_ns_;
+};
+
+}  // namespace nade

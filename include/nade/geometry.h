@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace nade {
+
+/// A point or direction; metres where it is a position. Right-handed, +Y up, -Z forward.
+using Vec3 = Eigen::Vector3d;
+
+/// A unit rotation. Unaligned, so that the layout of public types does not depend on the
+/// instruction set a program is compiled for.
+using Quat = Eigen::Quaternion<double, Eigen::DontAlign>;
+
+/// A rigid motion: `position` and `rotation` take local coordinates to the parent's.
+struct Pose {
+  Vec3 position = Vec3::Zero();
+  Quat rotation = Quat::Identity();
+
+  /// A local point in the parent's frame.
+  [[nodiscard]] Vec3 apply(const Vec3& point_local) const {
+    return rotation * point_local + position;
+  }
+
+  /// The motion that undoes this one.
+  [[nodiscard]] Pose inverse() const {
+    const Quat back = rotation.conjugate();
+    return {back * -position, back};
+  }
+
+  /// First `inner`, then this.
+  [[nodiscard]] Pose operator*(const Pose& inner) const {
+    return {apply(inner.position), rotation * inner.rotation};
+  }
+};
+
+/// A rigid motion with uniform scale (> 0): local coordinates are scaled, then moved.
+struct Placement {
+  Pose pose;
+  double scale = 1.0;
+
+  [[nodiscard]] Vec3 to_world(const Vec3& point_local) const {
+    return pose.apply(scale * point_local);
+  }
+  [[nodiscard]] Vec3 to_local(const Vec3& point_world) const {
+    return pose.rotation.conjugate() * (point_world - pose.position) / scale;
+  }
+};
+
+}  // namespace nade

@@ -1,0 +1,191 @@
+#include "nade/corrector.h"
+
+// Based on: Yanagida, Mori, Toyama. Composition of CG Hand Images for Visual Feedback of Contact
+// Sensation in Stroking Motion. 2023.
+
+#include <algorithm>
+#include <cmath>
+
+#include "nade/assert.h"
+
+namespace nade {
+namespace {
+
+/// A correction that changes by more than this many times the tracked hand's own motion, and
+/// the margin, has jumped. The motion counts up to a limit: beyond it the hand itself jumped.
+constexpr double kJumpRatio = 4.0;
+constexpr double kJumpMargin_m = 0.002;
+constexpr double kLongestMotion_m = 0.03;
+/// The mean hand length forgets frames older than about this many.
+constexpr std::int64_t kLengthFrames = 512;
+
+constexpr double kThinnestTip_m = 0.003;
+constexpr double kThickestTip_m = 0.015;
+constexpr double kSameRadius_m = 1e-4;
+
+double largest_motion(const HandPose& from, const HandPose& to) {
+  double motion = 0.0;
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    motion = std::max(motion, (to.joints[i].position - from.joints[i].position).norm());
+  }
+  return motion;
+}
+
+/// `first` as a change on top of `second`.
+Correction difference(const Correction& first, const Correction& second) {
+  Correction result;
+  result.palm.shift = first.palm.shift - second.palm.shift;
+  result.palm.turn = first.palm.turn * second.palm.turn.conjugate();
+  for (std::size_t d = 0; d < kDigitCount; ++d) result.bend[d] = first.bend[d] - second.bend[d];
+  return result;
+}
+
+Correction sum(const Correction& base, const Correction& change, double share) {
+  Correction result;
+  const Eigen::AngleAxisd turn{change.palm.turn};
+  result.palm.shift = base.palm.shift + share * change.palm.shift;
+  result.palm.turn =
+      (Quat(Eigen::AngleAxisd(share * turn.angle(), turn.axis())) * base.palm.turn).normalized();
+  for (std::size_t d = 0; d < kDigitCount; ++d) {
+    result.bend[d] = base.bend[d] + share * change.bend[d];
+  }
+  return result;
+}
+
+/// 1 at the start of a release, 0 at its end, smooth at both.
+double share_left(double elapsed_s, double release_s) {
+  if (elapsed_s >= release_s) return 0.0;
+  const double t = std::max(elapsed_s, 0.0) / release_s;
+  return 1.0 - t * t * (3.0 - 2.0 * t);
+}
+
+double seconds(std::int64_t from_ns, std::int64_t to_ns) {
+  return 1e-9 * static_cast<double>(to_ns - from_ns);
+}
+
+bool touches(const Contacts& contacts) {
+  return std::any_of(contacts.begin(), contacts.end(),
+                     [](const auto& contact) { return contact.has_value(); });
+}
+
+}  // namespace
+
+CorrectorOptions paper_literal() {
+  CorrectorOptions options;
+  options.contact.test_point = TestPoint::joint;
+  options.contact.counted_hits = CountedHits::any;
+  options.contact.entry_side = EntrySide::forgotten;
+  options.contact.full_turn_depth_m = 0.0;
+  options.release_s = 0.0;
+  return options;
+}
+
+std::optional<SkinDepths> believable_radii(const HandPose& hand) noexcept {
+  const auto [least, most] = std::minmax_element(hand.radius.begin(), hand.radius.end());
+  if (*most - *least < kSameRadius_m) return std::nullopt;
+  SkinDepths depths;
+  for (std::size_t i = 1; i < kPartCount; ++i) {
+    const double radius = hand.radius[index_of(joint_of(part_at(i)))];
+    if (!(radius >= kThinnestTip_m && radius <= kThickestTip_m)) return std::nullopt;
+    depths.depth_m[i] = radius;
+  }
+  return depths;
+}
+
+HandPose apply(const Correction& correction, const HandPose& tracked) noexcept {
+  HandPose hand = apply(correction.palm, tracked);
+  for (std::size_t d = 0; d < kDigitCount; ++d) {
+    if (correction.bend[d].isZero(0.0)) continue;
+    const DigitChain chain = measure_chain(hand, digit_at(d));
+    const DigitFreedoms bent = freedoms_of(chain.angles) + correction.bend[d];
+    set_digit(hand, chain.digit, pose_chain(chain, with_freedoms(chain.angles, bent)));
+  }
+  return hand;
+}
+
+HandCorrector::HandCorrector(const CorrectorOptions& options) : options_(options) {
+  NADE_ASSERT(options.skin_hand_length_m > 0.0);
+  NADE_ASSERT(options.release_s >= 0.0 && options.release_s <= 1.0);
+  NADE_ASSERT(options.contact.full_turn_depth_m >= 0.0);
+}
+
+void HandCorrector::reset() noexcept {
+  memory_ = {};
+  last_.reset();
+  release_start_ns_.reset();
+  hand_length_m_ = 0.0;
+  frames_ = 0;
+}
+
+const CorrectedHand& HandCorrector::update(const HandPose& tracked, const Object& object,
+                                           std::int64_t time_ns) noexcept {
+  result_ = {tracked, HandStatus::free, {}, {}};
+  if (!is_usable(tracked)) {
+    result_.status = HandStatus::untracked;
+    return result_;
+  }
+  if (options_.method == Method::none) return result_;
+
+  start_frame(tracked, time_ns);
+  Contacts contacts = find_contacts(tracked, skin_of(tracked), object, options_.contact, memory_);
+  const SeatedPalm seated = seat_palm(tracked, contacts[index_of(Part::palm)]);
+  const LaidFingers laid = lay_fingers(tracked, seated.hand, object, options_.fingers, contacts);
+
+  result_.pose = laid.hand;
+  result_.contacts = contacts;
+  result_.ray_turn_rad = laid.ray_turn_rad;
+  if (touches(contacts)) result_.status = HandStatus::corrected;
+  release(tracked, {seated.correction, laid.bend}, time_ns);
+  return result_;
+}
+
+void HandCorrector::start_frame(const HandPose& tracked, std::int64_t time_ns) noexcept {
+  const bool goes_on = last_ && last_->tracked.side == tracked.side && time_ns >= last_->time_ns;
+  if (!goes_on) reset();
+  // What was touched before a gap says nothing about where the hand comes back.
+  if (last_ && seconds(last_->time_ns, time_ns) > std::max(options_.release_s, 0.1)) {
+    memory_ = {};
+    last_.reset();
+    release_start_ns_.reset();
+  }
+}
+
+SkinDepths HandCorrector::skin_of(const HandPose& tracked) noexcept {
+  frames_ = std::min(frames_ + 1, kLengthFrames);
+  hand_length_m_ += (hand_length(tracked) - hand_length_m_) / static_cast<double>(frames_);
+  SkinDepths skin = options_.skin;
+  for (double& depth_m : skin.depth_m) depth_m *= hand_length_m_ / options_.skin_hand_length_m;
+  if (options_.skin_source == SkinSource::mesh) return skin;
+  if (const std::optional<SkinDepths> radii = believable_radii(tracked)) {
+    for (std::size_t i = 1; i < kPartCount; ++i) skin.depth_m[i] = radii->depth_m[i];
+  }
+  return skin;
+}
+
+void HandCorrector::release(const HandPose& tracked, const Correction& correction,
+                            std::int64_t time_ns) noexcept {
+  if (last_ && options_.release_s > 0.0) {
+    const double tracked_motion_m = largest_motion(last_->tracked, tracked);
+    const double jump_m = largest_motion(apply(last_->correction, tracked), result_.pose);
+    if (jump_m > kJumpRatio * std::min(tracked_motion_m, kLongestMotion_m) + kJumpMargin_m) {
+      Correction drawn = last_->correction;
+      if (release_start_ns_) {
+        const double before_s = seconds(*release_start_ns_, last_->time_ns);
+        drawn = sum(drawn, residue_, share_left(before_s, options_.release_s));
+      }
+      residue_ = difference(drawn, correction);
+      release_start_ns_ = last_->time_ns;
+    }
+  }
+  last_ = Frame{tracked, correction, time_ns};
+  if (!release_start_ns_) return;
+  const double share = share_left(seconds(*release_start_ns_, time_ns), options_.release_s);
+  if (share == 0.0) {
+    release_start_ns_.reset();
+    return;
+  }
+  result_.pose = apply(sum(correction, residue_, share), tracked);
+  if (result_.status == HandStatus::free) result_.status = HandStatus::released;
+}
+
+}  // namespace nade

@@ -1,0 +1,111 @@
+#include "nade/hand.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nade {
+namespace {
+
+struct JointNames {
+  std::string_view name;
+  std::string_view webxr;
+};
+
+constexpr std::array<JointNames, kJointCount> kNames{{
+    {"palm", "palm"},
+    {"wrist", "wrist"},
+    {"thumb_metacarpal", "thumb-metacarpal"},
+    {"thumb_proximal", "thumb-phalanx-proximal"},
+    {"thumb_distal", "thumb-phalanx-distal"},
+    {"thumb_tip", "thumb-tip"},
+    {"index_metacarpal", "index-finger-metacarpal"},
+    {"index_proximal", "index-finger-phalanx-proximal"},
+    {"index_intermediate", "index-finger-phalanx-intermediate"},
+    {"index_distal", "index-finger-phalanx-distal"},
+    {"index_tip", "index-finger-tip"},
+    {"middle_metacarpal", "middle-finger-metacarpal"},
+    {"middle_proximal", "middle-finger-phalanx-proximal"},
+    {"middle_intermediate", "middle-finger-phalanx-intermediate"},
+    {"middle_distal", "middle-finger-phalanx-distal"},
+    {"middle_tip", "middle-finger-tip"},
+    {"ring_metacarpal", "ring-finger-metacarpal"},
+    {"ring_proximal", "ring-finger-phalanx-proximal"},
+    {"ring_intermediate", "ring-finger-phalanx-intermediate"},
+    {"ring_distal", "ring-finger-phalanx-distal"},
+    {"ring_tip", "ring-finger-tip"},
+    {"little_metacarpal", "pinky-finger-metacarpal"},
+    {"little_proximal", "pinky-finger-phalanx-proximal"},
+    {"little_intermediate", "pinky-finger-phalanx-intermediate"},
+    {"little_distal", "pinky-finger-phalanx-distal"},
+    {"little_tip", "pinky-finger-tip"},
+}};
+
+/// Longer than any hand, shorter than any tracking blunder worth stopping.
+constexpr double kLongestHand_m = 0.5;
+constexpr double kUnitTolerance = 1e-3;
+
+}  // namespace
+
+std::string_view name_of(Joint joint) { return kNames[index_of(joint)].name; }
+
+std::string_view name_of(Part part) {
+  constexpr std::array<std::string_view, kPartCount> kPartNames{"palm",   "thumb", "index",
+                                                                "middle", "ring",  "little"};
+  return kPartNames[index_of(part)];
+}
+
+std::string_view name_of(Handedness side) { return side == Handedness::left ? "left" : "right"; }
+
+std::string_view name_of(HandStatus status) {
+  constexpr std::array<std::string_view, 4> kStatusNames{"free", "corrected", "released",
+                                                         "untracked"};
+  return kStatusNames[static_cast<std::size_t>(status)];
+}
+
+std::optional<Joint> joint_from_webxr_name(std::string_view name) {
+  const auto* found = std::find_if(kNames.begin(), kNames.end(),
+                                   [&](const JointNames& names) { return names.webxr == name; });
+  if (found == kNames.end()) return std::nullopt;
+  return joint_at(static_cast<std::size_t>(found - kNames.begin()));
+}
+
+bool is_usable(const HandPose& hand) noexcept {
+  const Vec3& wrist = hand[Joint::wrist].position;
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    const Pose& joint = hand.joints[i];
+    if (!joint.position.allFinite() || !joint.rotation.coeffs().allFinite()) return false;
+    if (std::abs(joint.rotation.squaredNorm() - 1.0) > kUnitTolerance) return false;
+    if (!((joint.position - wrist).norm() < kLongestHand_m)) return false;
+    if (!std::isfinite(hand.radius[i])) return false;
+  }
+  return true;
+}
+
+double hand_length(const HandPose& hand) noexcept {
+  return (hand[Joint::middle_proximal].position - hand[Joint::wrist].position).norm();
+}
+
+Pose palm_from_middle_metacarpal(const HandPose& hand) noexcept {
+  const Pose& metacarpal = hand[Joint::middle_metacarpal];
+  return {0.5 * (metacarpal.position + hand[Joint::middle_proximal].position), metacarpal.rotation};
+}
+
+HandPose moved(const HandPose& hand, const Pose& motion) noexcept {
+  HandPose result = hand;
+  for (Pose& joint : result.joints) joint = motion * joint;
+  return result;
+}
+
+HandPose mirrored(const HandPose& hand) noexcept {
+  HandPose result = hand;
+  result.side = hand.side == Handedness::left ? Handedness::right : Handedness::left;
+  for (Pose& joint : result.joints) {
+    joint.position.x() = -joint.position.x();
+    // Conjugating a rotation with the reflection of x keeps its x and w.
+    joint.rotation.y() = -joint.rotation.y();
+    joint.rotation.z() = -joint.rotation.z();
+  }
+  return result;
+}
+
+}  // namespace nade
