@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "nade/status.h"
+
+namespace nade {
+
+/// A file that appears under its name whole, in `finish`, or not at all: it is written beside
+/// its place under another name and renamed. What stood there before stays until then. Standard
+/// output ("-"), pipes and devices are written directly.
+class OutputFile {
+ public:
+  enum class Encoding { plain, gzip };
+
+  /// gzip where the name ends in ".gz", else plain.
+  [[nodiscard]] static Encoding encoding_of(const std::string& path);
+
+  /// The error names the file and why it cannot be written.
+  [[nodiscard]] static Result<OutputFile> create(const std::string& path, Encoding encoding);
+  OutputFile(OutputFile&&) noexcept;
+  OutputFile& operator=(OutputFile&&) noexcept;
+  /// Leaves nothing behind where `finish` was not reached.
+  ~OutputFile();
+
+  [[nodiscard]] Status write(std::string_view bytes);
+  /// Nothing may be written after it, whether it succeeded or not.
+  [[nodiscard]] Status finish();
+
+ private:
+  struct Impl;
+  explicit OutputFile(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace nade

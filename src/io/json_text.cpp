@@ -1,0 +1,235 @@
+#include "json_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace nade::io {
+namespace {
+
+/// Deeper than any recording, shallow enough to recurse through.
+constexpr int kDeepest = 64;
+
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+
+bool continues_scalar(char c) {
+  return !is_space(c) && c != ',' && c != ']' && c != '}' && c != ':' && c != '"';
+}
+
+bool is_not_finite(const std::string& token) {
+  if (token == "NaN" || token == "Infinity" || token == "-Infinity") return true;
+  if (token.empty() || (token[0] != '-' && (token[0] < '0' || token[0] > '9'))) return false;
+  char* end = nullptr;
+  const double number = std::strtod(token.c_str(), &end);
+  return *end == '\0' && !std::isfinite(number);
+}
+
+/// The text with null for every number that is not finite; none where there is none.
+std::optional<std::string> with_nulls(std::string_view text) {
+  std::string result;
+  bool replaced = false;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size();) {
+    const char c = text[i];
+    if (in_string || c == '"' || !continues_scalar(c) || c == '[' || c == '{') {
+      if (in_string && c == '\\' && i + 1 < text.size()) result += text[i++];
+      if (c == '"') in_string = !in_string;
+      result += text[i++];
+      continue;
+    }
+    std::size_t end = i;
+    while (end < text.size() && continues_scalar(text[end])) ++end;
+    const std::string token(text.substr(i, end - i));
+    const bool replace = is_not_finite(token);
+    replaced = replaced || replace;
+    result += replace ? "null" : token;
+    i = end;
+  }
+  if (!replaced) return std::nullopt;
+  return result;
+}
+
+bool is_deeper_than(const Json& value, int depth) {
+  if (!value.is_structured() || value.empty()) return false;
+  if (depth == 0) return true;
+  return std::any_of(value.begin(), value.end(),
+                     [&](const Json& element) { return is_deeper_than(element, depth - 1); });
+}
+
+Result<Json> checked(Json value) {
+  if (is_deeper_than(value, kDeepest)) {
+    return Error{ErrorCode::bad_format,
+                 fmt::format("expected values nested at most {} deep, found more", kDeepest)};
+  }
+  return value;
+}
+
+}  // namespace
+
+Result<Json> parse_json(std::string_view text) {
+  try {
+    return checked(Json::parse(text));
+  } catch (const Json::parse_error& error) {
+    if (const std::optional<std::string> mended = with_nulls(text)) {
+      Json value = Json::parse(*mended, nullptr, false);
+      if (!value.is_discarded()) return checked(std::move(value));
+    }
+    return Error{ErrorCode::bad_format, fmt::format("column {}: expected valid JSON",
+                                                    std::max(error.byte, std::size_t{1}))};
+  } catch (const Json::out_of_range&) {
+    if (const std::optional<std::string> mended = with_nulls(text)) {
+      Json value = Json::parse(*mended, nullptr, false);
+      if (!value.is_discarded()) return checked(std::move(value));
+    }
+    return Error{ErrorCode::bad_format, "expected valid JSON"};
+  }
+}
+
+std::string unknown_text(const Json& object) {
+  if (!object.is_object() || object.empty()) return {};
+  return object.dump();
+}
+
+const Sketch::Member* Sketch::find(std::string_view key) const {
+  const auto found = std::find_if(members.begin(), members.end(),
+                                  [&](const Member& member) { return member.key == key; });
+  return found == members.end() ? nullptr : &*found;
+}
+
+namespace {
+
+/// Reads through a text that may end anywhere.
+class SketchReader {
+ public:
+  explicit SketchReader(std::string_view text) : text_(text) {}
+
+  [[nodiscard]] bool at_end() {
+    while (at_ < text_.size() && is_space(text_[at_])) ++at_;
+    return at_ >= text_.size();
+  }
+  [[nodiscard]] bool step(char expected) {
+    if (at_end() || text_[at_] != expected) return false;
+    ++at_;
+    return true;
+  }
+  /// The next three characters that are not white space, left in place.
+  [[nodiscard]] std::string begins() const {
+    constexpr std::size_t kCount = 3;
+    std::string result;
+    for (std::size_t i = at_; i < text_.size() && result.size() < kCount; ++i) {
+      if (!is_space(text_[i])) result += text_[i];
+    }
+    return result;
+  }
+  [[nodiscard]] std::string string() {
+    if (!step('"')) return {};
+    const std::size_t start = at_;
+    while (at_ < text_.size() && text_[at_] != '"') at_ += text_[at_] == '\\' ? 2 : 1;
+    at_ = std::min(at_, text_.size());
+    return std::string(text_.substr(start, at_++ - start));
+  }
+  void skip_value() {
+    int depth = 0;
+    while (!at_end()) {
+      const char c = text_[at_];
+      if (c == '"') {
+        static_cast<void>(string());
+      } else if (c == '[' || c == '{') {
+        ++depth;
+        ++at_;
+      } else if (c == ']' || c == '}' || c == ',') {
+        if (depth == 0) return;
+        if (c != ',') --depth;
+        ++at_;
+      } else {
+        ++at_;
+      }
+    }
+  }
+
+ private:
+  std::string_view text_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace
+
+Sketch sketch_of(std::string_view text) {
+  SketchReader reader(text);
+  Sketch sketch;
+  sketch.begins = reader.begins();
+  if (!reader.step('{')) return sketch;
+  do {
+    Sketch::Member member{reader.string(), {}};
+    if (!reader.step(':')) break;
+    static_cast<void>(reader.at_end());
+    member.begins = reader.begins();
+    sketch.members.push_back(std::move(member));
+    reader.skip_value();
+  } while (reader.step(','));
+  return sketch;
+}
+
+std::optional<char> JsonWalker::look() {
+  std::string_view next = source_->peek(1);
+  while (!next.empty() && is_space(next[0])) {
+    static_cast<void>(source_->get());
+    next = source_->peek(1);
+  }
+  if (next.empty()) return std::nullopt;
+  return next[0];
+}
+
+bool JsonWalker::step(char expected) {
+  if (look() != expected) return false;
+  static_cast<void>(source_->get());
+  return true;
+}
+
+bool JsonWalker::walk_value(Keep keep) {
+  text_.clear();
+  if (!look()) return false;
+  std::size_t depth = 0;
+  bool in_string = false;
+  while (true) {
+    const std::string_view next = source_->peek(1);
+    if (next.empty()) return false;
+    const char c = next[0];
+    const bool ends_outer = !in_string && depth == 0 && !text_.empty() &&
+                            (c == ',' || c == ']' || c == '}' || c == ':' || is_space(c));
+    if (ends_outer) return true;
+    static_cast<void>(source_->get());
+    if (keep == Keep::text || text_.empty()) text_ += c;
+    if (text_.size() > kLongestLine) {
+      too_long_ = true;
+      return false;
+    }
+    if (in_string) {
+      if (c == '\\') {
+        const std::optional<char> escaped = source_->get();
+        if (!escaped) return false;
+        if (keep == Keep::text) text_ += *escaped;
+      }
+      in_string = c != '"';
+      if (!in_string && depth == 0) return true;
+    } else if (c == '"') {
+      in_string = true;
+    } else if (c == '[' || c == '{') {
+      ++depth;
+    } else if (c == ']' || c == '}') {
+      if (depth == 0) return false;
+      if (--depth == 0) return true;
+    }
+  }
+}
+
+std::optional<std::string_view> JsonWalker::value() {
+  if (!walk_value(Keep::text)) return std::nullopt;
+  return text_;
+}
+
+bool JsonWalker::skip_value() { return walk_value(Keep::nothing); }
+
+}  // namespace nade::io

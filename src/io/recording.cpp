@@ -1,0 +1,140 @@
+#include "nade/io/recording.h"
+
+#include <fmt/format.h>
+
+#include <variant>
+
+#include "byte_source.h"
+#include "json_text.h"
+#include "nade/io/output_file.h"
+#include "recording_lines.h"
+
+namespace nade {
+namespace {
+
+using io::ByteSource;
+using io::RecordingLines;
+using io::Sketch;
+
+using AnySource = std::variant<RecordingLines>;
+
+/// Enough to see what a file is.
+constexpr std::size_t kLookAhead = std::size_t{1} << 16;
+constexpr std::string_view kKnownForms =
+    "a nade recording, raw Leap Motion v2 frames (LeapJS JSON) or a WebXR action recording";
+
+template <class Source>
+Result<AnySource> opened(ByteSource source) {
+  Result<Source> result = Source::open(std::move(source));
+  if (!result) return result.error();
+  return AnySource(std::move(result).value());
+}
+
+Error unknown_form(const std::string& name, const std::string& found) {
+  return {ErrorCode::bad_format,
+          fmt::format("{}: expected {}, found {}", name, kKnownForms, found)};
+}
+
+Result<AnySource> recognised(ByteSource source) {
+  const std::string_view beginning = source.peek(kLookAhead);
+  if (source.failure()) return *source.failure();
+  const Sketch sketch = io::sketch_of(beginning);
+  if (sketch.begins.empty()) return unknown_form(source.name(), "nothing");
+  if (sketch.find("format") != nullptr) return opened<RecordingLines>(std::move(source));
+  if (sketch.find("t") != nullptr) {
+    return unknown_form(source.name(), "a frame in line 1, without the recording's header");
+  }
+  if (sketch.members.empty()) return unknown_form(source.name(), "none of them");
+  return unknown_form(source.name(),
+                      fmt::format("an object that begins with \"{}\"", sketch.members[0].key));
+}
+
+}  // namespace
+
+struct RecordingReader::Impl {
+  AnySource source;
+};
+
+RecordingReader::RecordingReader(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+RecordingReader::RecordingReader(RecordingReader&&) noexcept = default;
+RecordingReader& RecordingReader::operator=(RecordingReader&&) noexcept = default;
+RecordingReader::~RecordingReader() = default;
+
+Result<RecordingReader> RecordingReader::open(const std::string& path) {
+  Result<ByteSource> bytes = ByteSource::open(path);
+  if (!bytes) return bytes.error();
+  Result<AnySource> source = recognised(std::move(bytes).value());
+  if (!source) return source.error();
+  return RecordingReader(std::make_unique<Impl>(Impl{std::move(source).value()}));
+}
+
+RecordingFormat RecordingReader::format() const { return RecordingFormat::nade; }
+
+const RecordingHeader& RecordingReader::header() const {
+  return std::visit([](const auto& source) -> const RecordingHeader& { return source.header(); },
+                    impl_->source);
+}
+
+Result<std::optional<RecordedFrame>> RecordingReader::next() {
+  return std::visit([](auto& source) { return source.next(); }, impl_->source);
+}
+
+std::vector<std::string> RecordingReader::warnings() const {
+  return std::visit([](const auto& source) { return source.warnings().sentences(); },
+                    impl_->source);
+}
+
+struct RecordingWriter::Impl {
+  std::string name;
+  OutputFile file;
+  fmt::memory_buffer buffer;
+  std::optional<std::int64_t> last_time_ns;
+
+  Status flush() {
+    const Status status = file.write({buffer.data(), buffer.size()});
+    buffer.clear();
+    return status;
+  }
+};
+
+RecordingWriter::RecordingWriter(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+RecordingWriter::RecordingWriter(RecordingWriter&&) noexcept = default;
+RecordingWriter& RecordingWriter::operator=(RecordingWriter&&) noexcept = default;
+RecordingWriter::~RecordingWriter() = default;
+
+Result<RecordingWriter> RecordingWriter::create(const std::string& path,
+                                                const RecordingHeader& header) {
+  Result<OutputFile> file = OutputFile::create(path, OutputFile::encoding_of(path));
+  if (!file) return file.error();
+  auto impl =
+      std::make_unique<Impl>(Impl{path == "-" ? "standard output" : path, std::move(file).value(),
+                                  fmt::memory_buffer(), std::nullopt});
+  io::append_header(header, impl->buffer);
+  const Status status = impl->flush();
+  if (!status) return status.error();
+  return RecordingWriter(std::move(impl));
+}
+
+Status RecordingWriter::write(const RecordedFrame& frame) {
+  NADE_ASSERT(impl_ != nullptr);
+  if (impl_->last_time_ns && frame.time_ns <= *impl_->last_time_ns) {
+    return Error{ErrorCode::bad_value,
+                 fmt::format("{}: frame at {} ns: expected a time after {} ns", impl_->name,
+                             frame.time_ns, *impl_->last_time_ns)};
+  }
+  const Status appended = io::append_frame(frame, impl_->buffer);
+  if (!appended) {
+    impl_->buffer.clear();
+    return Error{appended.error().code,
+                 fmt::format("{}: {}", impl_->name, appended.error().message)};
+  }
+  impl_->last_time_ns = frame.time_ns;
+  return impl_->flush();
+}
+
+Status RecordingWriter::finish() {
+  NADE_ASSERT(impl_ != nullptr);
+  return impl_->file.finish();
+}
+
+}  // namespace nade

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+
+#include "byte_source.h"
+#include "json_text.h"
+#include "nade/io/recording.h"
+#include "warnings.h"
+
+namespace nade::io {
+
+/// Reads our own format.
+class RecordingLines {
+ public:
+  [[nodiscard]] static Result<RecordingLines> open(ByteSource source);
+
+  [[nodiscard]] const RecordingHeader& header() const { return header_; }
+  [[nodiscard]] Result<std::optional<RecordedFrame>> next();
+  [[nodiscard]] const Warnings& warnings() const { return warnings_; }
+
+ private:
+  explicit RecordingLines(ByteSource source) : source_(std::move(source)) {}
+
+  /// The next line that is not blank, as JSON; none at the end.
+  Result<std::optional<Json>> next_json();
+  Status read_header();
+  Result<RecordedFrame> read_frame(Json object);
+  Result<std::optional<RecordedHand>> read_hand(Json object, Handedness side);
+  [[nodiscard]] std::string place() const;
+  [[nodiscard]] Error bad_value(const std::string& sentence) const;
+
+  ByteSource source_;
+  RecordingHeader header_;
+  Warnings warnings_;
+  std::size_t line_ = 0;
+  std::optional<std::int64_t> last_time_ns_;
+};
+
+/// Appends a line of our format, with its end. The error is what cannot be written, to be
+/// prefixed with the file's name.
+void append_header(const RecordingHeader& header, fmt::memory_buffer& out);
+[[nodiscard]] Status append_frame(const RecordedFrame& frame, fmt::memory_buffer& out);
+
+}  // namespace nade::io
