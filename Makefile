@@ -11,7 +11,7 @@ help: ## List these targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 14
 
 demo: setup ## Strokes on three objects, corrected and measured: a table under build/demo
-	@scripts/build release nade_cli dog_mesh
+	@scripts/build release nade_cli nade_share
 	@scripts/demo
 
 test: setup ## Everything that has to hold: style, builds, tests, sanitizers

@@ -7,13 +7,23 @@ if(NOT NADE_ASSET_CACHE)
 endif()
 
 set(NADE_SHARE_DIR "${PROJECT_BINARY_DIR}/share/nade")
-set(nade_hands "${NADE_ASSET_CACHE}/webxr-input-profiles-assets-1.0.20")
-foreach(file left.glb right.glb LICENSE.md)
-  if(EXISTS "${nade_hands}/${file}")
-    configure_file("${nade_hands}/${file}" "${NADE_SHARE_DIR}/hands/${file}" COPYONLY)
+set(nade_hands webxr-input-profiles-assets-1.0.20)
+foreach(asset
+    "${nade_hands}/left.glb>left.glb"
+    "${nade_hands}/right.glb>right.glb"
+    "${nade_hands}/LICENSE.md>LICENSE-generic-hand.md"
+    "iwer-2.5.0/LICENSE>LICENSE-relaxed")
+  string(REPLACE ">" ";" asset "${asset}")
+  list(GET asset 0 from)
+  list(GET asset 1 to)
+  if(EXISTS "${NADE_ASSET_CACHE}/${from}")
+    configure_file("${NADE_ASSET_CACHE}/${from}" "${NADE_SHARE_DIR}/hands/${to}" COPYONLY)
   else()
-    message(WARNING "${nade_hands}/${file} is missing: run scripts/fetch_assets, then configure "
-      "again; until then no program finds a hand to draw.")
+    message(WARNING "${NADE_ASSET_CACHE}/${from} is missing: run scripts/fetch_assets, then "
+      "configure again; until then programs find no hand to draw.")
     break()
   endif()
 endforeach()
+
+# What comes with nade and is made while building; those who make it add themselves.
+add_custom_target(nade_share ALL)

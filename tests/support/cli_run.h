@@ -1,0 +1,93 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+namespace nade::test {
+
+inline std::string read_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+inline void write_file(const std::string& path, const std::string& content) {
+  std::ofstream(path, std::ios::binary) << content;
+}
+
+/// What a command line left behind.
+struct Ran {
+  int status = -1;
+  std::string out;
+  std::string err;
+};
+
+/// Tests of the built program, each in an empty folder of its own, which is also where the
+/// program runs.
+class CliTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = testing::TempDir() + "nade_cli_XXXXXX";
+    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
+    folder_ = pattern;
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] std::string path(const std::string& name) const {
+    return (folder_ / name).string();
+  }
+
+  /// Runs a shell command line in which $NADE is the program. Nothing is a terminal.
+  [[nodiscard]] Ran shell(const std::string& command) const {
+    const std::string kept = folder_.string() + ".ran";
+    const std::string line = "cd '" + folder_.string() +
+                             "' && { export NADE='" NADE_TEST_CLI "'; " + command + "\n} >" + kept +
+                             ".out 2>" + kept + ".err </dev/null";
+    const int raw = std::system(line.c_str());
+    Ran ran{WIFEXITED(raw) ? WEXITSTATUS(raw) : -1, read_file(kept + ".out"),
+            read_file(kept + ".err")};
+    std::filesystem::remove(kept + ".out");
+    std::filesystem::remove(kept + ".err");
+    return ran;
+  }
+
+  [[nodiscard]] Ran nade(const std::string& arguments) const {
+    return shell("\"$NADE\" " + arguments);
+  }
+
+  /// Names of what the folder holds.
+  [[nodiscard]] std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+      names.push_back(entry.path().filename().string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+
+  /// A short stroke to work on, as a plain recording.
+  void make_stroke(const std::string& name, const std::string& options = "--object plane") const {
+    const Ran ran = nade("synth -o " + name + " --duration 0.3 " + options);
+    ASSERT_EQ(ran.status, 0) << ran.err;
+  }
+
+  /// Status 1 and a single line on stderr that has `part` in it, nothing on stdout.
+  static void expect_failure(const Ran& ran, const std::string& part) {
+    EXPECT_EQ(ran.status, 1) << ran.err;
+    EXPECT_EQ(ran.out, "");
+    EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+    EXPECT_NE(ran.err.find(part), std::string::npos) << ran.err << "lacks: " << part;
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+}  // namespace nade::test
