@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "nade/mesh.h"
+#include "nade/status.h"
+
+namespace nade {
+
+/// A named spot on an object: where to stroke it. In a glTF file a node without a mesh, named
+/// "place-…": +Y out of the surface, -Z the way the stroke goes.
+struct MeshPlace {
+  std::string name;  ///< without "place-"
+  Pose pose;
+};
+
+/// What a mesh file holds: all its triangles in one frame, and its places.
+struct MeshFile {
+  TriangleSoup soup;
+  std::vector<MeshPlace> places;
+};
+
+/// Reads .glb .gltf .obj .stl .ply .off, recognised by the name's ending; scene transforms are
+/// applied. Positions are taken as metres. The error names the file and what is wrong with it.
+[[nodiscard]] Result<MeshFile> load_mesh(const std::string& path);
+
+}  // namespace nade

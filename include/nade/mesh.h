@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "nade/status.h"
+#include "nade/surface.h"
+
+namespace nade {
+
+/// Triangles as they come from a file or a program: metres, counter-clockwise seen from outside.
+struct TriangleSoup {
+  std::vector<Eigen::Vector3f> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+/// How a mesh tells inside from outside.
+enum class MeshSolid : std::uint8_t {
+  closed,     ///< clean and closed: the sign is exact, from angle-weighted pseudonormals
+  defective,  ///< holes, doubles, non-manifold: the sign is the generalised winding number's
+  sheet,      ///< an open surface: solid behind it, free in front and beyond its border
+};
+
+/// What was found, and mended, in the triangles of a mesh.
+struct MeshReport {
+  std::size_t triangles_used = 0;
+  std::size_t triangles_degenerate = 0;  ///< without area; left out
+  std::size_t triangles_duplicate = 0;   ///< the same three corners again; left out
+  std::size_t triangles_turned = 0;      ///< wound against their neighbours; turned
+  std::size_t border_edges = 0;          ///< edges with one triangle
+  std::size_t nonmanifold_edges = 0;     ///< edges with more than two
+  MeshSolid solid = MeshSolid::closed;
+};
+
+/// A triangle mesh as a solid. Queries are thread-safe and do not allocate.
+class MeshSurface final : public Surface {
+ public:
+  /// Builds the search tree. Refuses a mesh without any triangle of area, with a vertex that is
+  /// not finite, or with an index out of range; `name` is what the error calls the mesh.
+  [[nodiscard]] static Result<std::unique_ptr<MeshSurface>> build(const TriangleSoup& soup,
+                                                                  const std::string& name);
+  ~MeshSurface() override;
+
+  [[nodiscard]] std::optional<RayHit> first_hit(const Ray& ray) const noexcept override;
+  [[nodiscard]] std::optional<SurfacePoint> closest_point(
+      const Vec3& query, double max_distance, SurfaceHint& hint) const noexcept override;
+
+  /// Follows a deforming object: new positions for the vertices of the soup it was built from,
+  /// same order and number, all finite. Does not allocate. Not while another thread queries.
+  void refit(std::span<const Eigen::Vector3f> vertices) noexcept;
+
+  [[nodiscard]] const MeshReport& report() const;
+
+ private:
+  struct Impl;
+  explicit MeshSurface(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace nade

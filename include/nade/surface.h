@@ -1,0 +1,97 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "nade/geometry.h"
+
+namespace nade {
+
+/// A half-line. `direction` is of unit length; hits beyond `max_distance` do not count.
+struct Ray {
+  Vec3 origin = Vec3::Zero();
+  Vec3 direction = Vec3::UnitY();
+  double max_distance = std::numeric_limits<double>::infinity();
+};
+
+/// Where a ray meets a surface.
+struct RayHit {
+  double distance = 0.0;  ///< along the ray
+  Vec3 point = Vec3::Zero();
+  Vec3 normal = Vec3::UnitY();  ///< unit, out of the solid, whichever side the ray came from
+  bool from_inside = false;     ///< the ray leaves the solid here: normal . direction > 0
+};
+
+/// The point of a surface nearest to a query.
+struct SurfacePoint {
+  Vec3 point = Vec3::Zero();
+  Vec3 normal = Vec3::UnitY();   ///< unit, out of the solid
+  double signed_distance = 0.0;  ///< of the query: negative inside the solid
+};
+
+/// What a query leaves behind to make the next, nearby one fast. Any value is correct; keep one
+/// for each point that is followed from frame to frame.
+struct SurfaceHint {
+  static constexpr std::uint32_t kNone = 0xffffffff;
+  std::uint32_t element = kNone;
+};
+
+/// A solid's surface, in its own frame. Implement it to bring an object of your own (a height
+/// field, a distance function); queries must be thread-safe, must not allocate, and give no
+/// result for a query that is not finite.
+class Surface {
+ public:
+  virtual ~Surface() = default;
+
+  /// The first hit along the ray, from either side.
+  [[nodiscard]] virtual std::optional<RayHit> first_hit(const Ray& ray) const noexcept = 0;
+
+  /// The nearest point within `max_distance` of the query, and the query's signed distance.
+  [[nodiscard]] virtual std::optional<SurfacePoint> closest_point(
+      const Vec3& query, double max_distance, SurfaceHint& hint) const noexcept = 0;
+};
+
+/// The half-space below y = 0.
+class PlaneSurface final : public Surface {
+ public:
+  [[nodiscard]] std::optional<RayHit> first_hit(const Ray& ray) const noexcept override;
+  [[nodiscard]] std::optional<SurfacePoint> closest_point(
+      const Vec3& query, double max_distance, SurfaceHint& hint) const noexcept override;
+};
+
+/// A ball about the origin.
+class SphereSurface final : public Surface {
+ public:
+  /// `radius_m` > 0.
+  explicit SphereSurface(double radius_m);
+  [[nodiscard]] double radius() const { return radius_; }
+  [[nodiscard]] std::optional<RayHit> first_hit(const Ray& ray) const noexcept override;
+  [[nodiscard]] std::optional<SurfacePoint> closest_point(
+      const Vec3& query, double max_distance, SurfaceHint& hint) const noexcept override;
+
+ private:
+  double radius_;
+};
+
+/// A surface where it stands in the world: the object the hand strokes. Does not own the
+/// surface. All queries and answers are in world coordinates.
+class Object {
+ public:
+  /// `placement.scale` > 0. `surface` must outlive the object.
+  explicit Object(const Surface& surface, const Placement& placement = {});
+
+  [[nodiscard]] const Surface& surface() const { return *surface_; }
+  [[nodiscard]] const Placement& placement() const { return placement_; }
+
+  [[nodiscard]] std::optional<RayHit> first_hit(const Ray& ray_world) const noexcept;
+  [[nodiscard]] std::optional<SurfacePoint> closest_point(const Vec3& query_world,
+                                                          double max_distance,
+                                                          SurfaceHint& hint) const noexcept;
+
+ private:
+  const Surface* surface_;
+  Placement placement_;
+};
+
+}  // namespace nade

@@ -1,0 +1,290 @@
+#include "nade/mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh_normals.h"
+#include "mesh_topology.h"
+#include "nade/assert.h"
+#include "triangle_tree.h"
+
+// Based on: Baerentzen, Aanaes. Signed Distance Computation Using the Angle Weighted
+// Pseudonormal. 2005.
+// Based on: Jacobson, Kavan, Sorkine-Hornung. Robust Inside-Outside Segmentation using
+// Generalized Winding Numbers. 2013.
+// Based on: Ericson. Real-Time Collision Detection. 2005 (the regions of a triangle).
+
+namespace nade {
+namespace {
+
+using detail::Corners;
+using detail::kNoTriangle;
+
+/// Which part of a triangle a point is nearest to.
+enum class Feature : std::uint8_t { vertex_0, vertex_1, vertex_2, edge_01, edge_12, edge_20, face };
+
+struct TrianglePoint {
+  Vec3 point;
+  Vec3 weights;  ///< of the corners
+  Feature feature;
+};
+
+struct TrianglePositions {
+  Vec3 a, b, c;
+};
+
+TrianglePoint nearest_on(const TrianglePositions& triangle, const Vec3& query) {
+  const auto& [a, b, c] = triangle;
+  const Vec3 ab = b - a;
+  const Vec3 ac = c - a;
+  const Vec3 aq = query - a;
+  const double ab_a = ab.dot(aq);
+  const double ac_a = ac.dot(aq);
+  if (ab_a <= 0.0 && ac_a <= 0.0) return {a, Vec3::UnitX(), Feature::vertex_0};
+  const Vec3 bq = query - b;
+  const double ab_b = ab.dot(bq);
+  const double ac_b = ac.dot(bq);
+  if (ab_b >= 0.0 && ac_b <= ab_b) return {b, Vec3::UnitY(), Feature::vertex_1};
+  const Vec3 cq = query - c;
+  const double ab_c = ab.dot(cq);
+  const double ac_c = ac.dot(cq);
+  if (ac_c >= 0.0 && ab_c <= ac_c) return {c, Vec3::UnitZ(), Feature::vertex_2};
+  const double at_c = ab_a * ac_b - ab_b * ac_a;
+  if (at_c <= 0.0 && ab_a >= 0.0 && ab_b <= 0.0) {
+    const double share = ab_a / (ab_a - ab_b);
+    return {a + share * ab, {1.0 - share, share, 0.0}, Feature::edge_01};
+  }
+  const double at_b = ab_c * ac_a - ab_a * ac_c;
+  if (at_b <= 0.0 && ac_a >= 0.0 && ac_c <= 0.0) {
+    const double share = ac_a / (ac_a - ac_c);
+    return {a + share * ac, {1.0 - share, 0.0, share}, Feature::edge_20};
+  }
+  const double at_a = ab_b * ac_c - ab_c * ac_b;
+  if (at_a <= 0.0 && ac_b >= ab_b && ab_c >= ac_c) {
+    const double share = (ac_b - ab_b) / ((ac_b - ab_b) + (ab_c - ac_c));
+    return {b + share * (c - b), {0.0, 1.0 - share, share}, Feature::edge_12};
+  }
+  const double sum = at_a + at_b + at_c;
+  // Only a triangle without area, which a refit may bring about, gets here with nothing.
+  if (!(sum > 0.0)) return {a, Vec3::UnitX(), Feature::vertex_0};
+  const double v = at_b / sum;
+  const double w = at_c / sum;
+  return {a + v * ab + w * ac, {1.0 - v - w, v, w}, Feature::face};
+}
+
+/// Where the ray's line meets the triangle's plane, moved onto the triangle where rounding puts
+/// it beside.
+TrianglePoint meet(const TrianglePositions& triangle, const Vec3& normal, const Ray& ray) {
+  const double slope = normal.dot(ray.direction);
+  const double distance = slope != 0.0 ? normal.dot(triangle.a - ray.origin) / slope : 0.0;
+  return nearest_on(triangle, ray.origin + distance * ray.direction);
+}
+
+/// The least larger float, so that a bound includes what lies on it.
+float round_up(double value) {
+  return std::nextafter(static_cast<float>(value * (1.0 + 1e-6)),
+                        std::numeric_limits<float>::infinity());
+}
+
+}  // namespace
+
+struct MeshSurface::Impl {
+  MeshReport report;
+  detail::WeldedMesh mesh;
+  detail::MeshTopology topology;
+  detail::MeshNormals normals;
+  detail::TriangleTree tree;
+  std::size_t soup_vertices = 0;
+  Vec3 centre = Vec3::Zero();
+  double radius = 0.0;
+
+  [[nodiscard]] TrianglePositions positions(std::uint32_t triangle) const {
+    const Corners& corners = mesh.triangles[triangle];
+    return {mesh.vertices[corners[0]].cast<double>(), mesh.vertices[corners[1]].cast<double>(),
+            mesh.vertices[corners[2]].cast<double>()};
+  }
+
+  void follow_vertices() {
+    tree.set_triangles(mesh.vertices, mesh.triangles);
+    if (topology.sign == detail::SignRule::winding) tree.set_dipoles();
+    const Eigen::AlignedBox3f& bounds = tree.bounds();
+    centre = bounds.center().cast<double>();
+    radius = 0.5 * bounds.diagonal().cast<double>().norm();
+  }
+
+  /// Unit; the face's where the interpolated one vanishes.
+  [[nodiscard]] Vec3 shading_normal(std::uint32_t triangle, const Vec3& weights,
+                                    const Vec3& face) const {
+    Vec3 normal = Vec3::Zero();
+    for (std::size_t k = 0; k < 3; ++k) {
+      normal += weights[static_cast<Eigen::Index>(k)] * normals.shading(triangle, k);
+    }
+    const double length = normal.norm();
+    constexpr double kShortest = 1e-3;
+    if (length > kShortest) return normal / length;
+    return face.squaredNorm() > 0.0 ? face.stableNormalized() : Vec3::UnitY();
+  }
+
+  [[nodiscard]] bool is_inside(const Vec3& query, std::uint32_t triangle,
+                               const TrianglePoint& nearest, const Vec3& face) const {
+    if (topology.sign == detail::SignRule::winding) {
+      const Eigen::Vector3f at = query.cast<float>();
+      return tree.winding({at.x(), at.y(), at.z()}) > 0.5F;
+    }
+    const Vec3 away = query - nearest.point;
+    if (nearest.feature == Feature::face) return face.dot(away) < 0.0;
+    if (nearest.feature < Feature::edge_01) {
+      const auto corner = static_cast<std::size_t>(nearest.feature);
+      const std::uint32_t vertex = mesh.triangles[triangle][corner];
+      if (topology.sign == detail::SignRule::sheet && normals.on_border(vertex)) return false;
+      return normals.vertex_pseudonormal(vertex).dot(away) < 0.0;
+    }
+    const auto edge =
+        static_cast<std::size_t>(nearest.feature) - static_cast<std::size_t>(Feature::edge_01);
+    const std::uint32_t other = topology.neighbours[triangle][edge];
+    if (other == detail::kBorder) return false;
+    Vec3 pseudonormal = face.stableNormalized();
+    if (detail::is_triangle(other)) {
+      pseudonormal += detail::face_normal(mesh, other).stableNormalized();
+    }
+    return pseudonormal.dot(away) < 0.0;
+  }
+};
+
+MeshSurface::MeshSurface(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+MeshSurface::~MeshSurface() = default;
+
+Result<std::unique_ptr<MeshSurface>> MeshSurface::build(const TriangleSoup& soup,
+                                                        const std::string& name) {
+  const auto refuse = [&](const std::string& what) {
+    return Error{ErrorCode::bad_value, name + ": " + what};
+  };
+  // What float arithmetic on squares of squares still holds.
+  constexpr float kLargest = 1e6F;
+  for (std::size_t i = 0; i < soup.vertices.size(); ++i) {
+    if (!soup.vertices[i].allFinite()) {
+      return refuse("vertex " + std::to_string(i) + ": expected finite coordinates");
+    }
+    if (soup.vertices[i].cwiseAbs().maxCoeff() > kLargest) {
+      return refuse("vertex " + std::to_string(i) +
+                    ": expected coordinates within 1000 km of the origin");
+    }
+  }
+  for (std::size_t i = 0; i < soup.triangles.size(); ++i) {
+    for (const std::uint32_t vertex : soup.triangles[i]) {
+      if (vertex >= soup.vertices.size()) {
+        return refuse("triangle " + std::to_string(i) + ": expected vertices below " +
+                      std::to_string(soup.vertices.size()) + ", found " + std::to_string(vertex));
+      }
+    }
+  }
+  auto impl = std::make_unique<Impl>();
+  impl->soup_vertices = soup.vertices.size();
+  impl->mesh = detail::weld(soup, impl->report);
+  if (impl->mesh.triangles.empty()) {
+    return refuse("expected at least one triangle with an area, found " +
+                  std::to_string(soup.triangles.size()) + " triangles without");
+  }
+  detail::reorder(impl->mesh, impl->tree.build(impl->mesh.vertices, impl->mesh.triangles));
+  impl->topology = detail::orient(impl->mesh, impl->report);
+  impl->normals.build(impl->mesh, impl->topology);
+  impl->follow_vertices();
+  return std::unique_ptr<MeshSurface>(new MeshSurface(std::move(impl)));
+}
+
+std::optional<RayHit> MeshSurface::first_hit(const Ray& ray) const noexcept {
+  if (!ray.origin.allFinite() || !ray.direction.allFinite() || !(ray.max_distance >= 0.0) ||
+      !(ray.direction.squaredNorm() > 0.0)) {
+    return std::nullopt;
+  }
+  // A far origin is brought near along the ray, where floats are fine enough.
+  double skipped = 0.0;
+  const double to_centre = (impl_->centre - ray.origin).dot(ray.direction);
+  constexpr double kFar = 4.0;
+  if (!(std::abs(to_centre) <= kFar * impl_->radius)) {
+    skipped = to_centre - 2.0 * impl_->radius;
+    if (!(skipped > 0.0 && skipped <= ray.max_distance)) return std::nullopt;
+  }
+  const Vec3 origin = ray.origin + skipped * ray.direction;
+  if (!((origin - impl_->centre).squaredNorm() < 1e3 * kFar * impl_->radius * impl_->radius)) {
+    return std::nullopt;
+  }
+  detail::TreeRay query{};
+  for (int axis = 0; axis < 3; ++axis) {
+    query.origin[axis] = static_cast<float>(origin[axis]);
+    query.direction[axis] = static_cast<float>(ray.direction[axis]);
+  }
+  query.max_distance = round_up(std::min(ray.max_distance - skipped, 1e3 * kFar * impl_->radius));
+  const detail::TreeHit hit = impl_->tree.first_hit(query);
+  if (hit.triangle == kNoTriangle) return std::nullopt;
+
+  const TrianglePositions triangle = impl_->positions(hit.triangle);
+  const Vec3 face = (triangle.b - triangle.a).cross(triangle.c - triangle.a);
+  const TrianglePoint met = meet(triangle, face, ray);
+  const double distance = std::max(0.0, (met.point - ray.origin).dot(ray.direction));
+  if (distance > ray.max_distance) return std::nullopt;
+  const bool from_inside = face.dot(ray.direction) > 0.0;
+  Vec3 normal = impl_->shading_normal(hit.triangle, met.weights, face);
+  // Interpolation may tip a normal over to the other side of a grazing ray: lay it across.
+  const double along = normal.dot(ray.direction);
+  if ((along > 0.0) != from_inside) {
+    constexpr double kOver = 1.0 + 1e-9;
+    const Vec3 across = normal - kOver * along * ray.direction;
+    normal = across.squaredNorm() > 0.0 ? across.normalized() : face.stableNormalized();
+  }
+  return RayHit{distance, met.point, normal, from_inside};
+}
+
+std::optional<SurfacePoint> MeshSurface::closest_point(const Vec3& query, double max_distance,
+                                                       SurfaceHint& hint) const noexcept {
+  if (!query.allFinite() || !(max_distance >= 0.0)) return std::nullopt;
+  // From very far, look from a nearer point in the same direction.
+  Vec3 seen_from = query;
+  constexpr double kFar = 1e4;
+  const double from_centre = (query - impl_->centre).stableNorm();
+  if (!(from_centre <= kFar * impl_->radius)) {
+    if (from_centre - impl_->radius > max_distance) return std::nullopt;
+    seen_from = impl_->centre + kFar * impl_->radius * (query - impl_->centre).stableNormalized();
+  }
+  detail::TreePoint tree_query{};
+  for (int axis = 0; axis < 3; ++axis) {
+    tree_query.point[axis] = static_cast<float>(seen_from[axis]);
+  }
+  double bound = std::min(max_distance + (query - seen_from).norm(), 4.0 * kFar * impl_->radius);
+  tree_query.triangle = kNoTriangle;
+  if (hint.element < impl_->mesh.triangles.size()) {
+    const double reach =
+        (nearest_on(impl_->positions(hint.element), seen_from).point - seen_from).norm();
+    if (reach <= bound) {
+      bound = reach;
+      tree_query.triangle = hint.element;
+    }
+  }
+  const float rounded = round_up(bound);
+  tree_query.bound_squared = rounded * rounded;
+  const std::uint32_t found = impl_->tree.closest(tree_query);
+  if (found == kNoTriangle) return std::nullopt;
+
+  const TrianglePositions triangle = impl_->positions(found);
+  const Vec3 face = (triangle.b - triangle.a).cross(triangle.c - triangle.a);
+  const TrianglePoint nearest = nearest_on(triangle, query);
+  const double distance = (query - nearest.point).stableNorm();
+  if (!(distance <= max_distance)) return std::nullopt;
+  hint.element = found;
+  const bool inside = impl_->is_inside(seen_from, found, nearest, face);
+  return SurfacePoint{nearest.point, impl_->shading_normal(found, nearest.weights, face),
+                      inside ? -distance : distance};
+}
+
+void MeshSurface::refit(std::span<const Eigen::Vector3f> vertices) noexcept {
+  NADE_ASSERT(vertices.size() == impl_->soup_vertices);
+  for (std::size_t i = 0; i < impl_->mesh.vertices.size(); ++i) {
+    impl_->mesh.vertices[i] = vertices[impl_->mesh.source[i]];
+  }
+  impl_->follow_vertices();
+  impl_->normals.update(impl_->mesh);
+}
+
+const MeshReport& MeshSurface::report() const { return impl_->report; }
+
+}  // namespace nade

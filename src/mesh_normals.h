@@ -1,0 +1,41 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "mesh_topology.h"
+
+namespace nade::detail {
+
+/// Two kinds of normals. Pseudonormals tell inside from outside and nothing else. Shading
+/// normals run smoothly over the surface and break at creases; they are what queries return.
+class MeshNormals {
+ public:
+  void build(const WeldedMesh& mesh, const MeshTopology& topology);
+
+  /// After vertices have moved. Creases stay where `build` found them. Does not allocate.
+  void update(const WeldedMesh& mesh) noexcept;
+
+  /// Angle-weighted, not unit (Baerentzen, Aanaes 2005).
+  [[nodiscard]] Eigen::Vector3d vertex_pseudonormal(std::uint32_t vertex) const {
+    return vertex_pseudonormals_[vertex].cast<double>();
+  }
+  /// Whether the vertex ends a border edge.
+  [[nodiscard]] bool on_border(std::uint32_t vertex) const { return on_border_[vertex] != 0; }
+
+  /// At a corner of a triangle; unit, or zero where the triangles around cancel out.
+  [[nodiscard]] Eigen::Vector3d shading(std::uint32_t triangle, std::size_t corner) const {
+    return shading_[shading_index_[triangle][corner]].cast<double>();
+  }
+
+ private:
+  std::vector<Eigen::Vector3f> vertex_pseudonormals_;
+  std::vector<std::uint8_t> on_border_;
+  std::vector<Eigen::Vector3f> shading_;
+  std::vector<Corners> shading_index_;
+};
+
+/// Not normalised: its length is twice the area.
+[[nodiscard]] Eigen::Vector3d face_normal(const WeldedMesh& mesh, std::uint32_t triangle);
+
+}  // namespace nade::detail

@@ -1,0 +1,75 @@
+#pragma once
+
+// What the triangle tree is made of, and its queries. Kept apart from everything else, since it
+// is compiled for more than one instruction set.
+
+#include <cstdint>
+
+namespace nade::detail {
+
+/// Children of a node, and triangles of a leaf.
+inline constexpr std::uint32_t kTreeWidth = 8;
+/// In `TreeNode::child`: no child here.
+inline constexpr std::uint32_t kNoChild = 0xffffffff;
+/// In `TreeNode::child`: the rest of the number is a block's, not a node's.
+inline constexpr std::uint32_t kLeafBit = 0x80000000;
+inline constexpr std::uint32_t kNoTriangle = 0xffffffff;
+/// Deepest path from the root; the build sees to it that it holds.
+inline constexpr std::uint32_t kTreeDepth = 64;
+
+/// Up to eight child boxes, coordinate by coordinate. An unused child's box is inside out, so no
+/// query enters it. Children stand behind their parent.
+struct alignas(32) TreeNode {
+  float low[3][kTreeWidth];
+  float high[3][kTreeWidth];
+  std::uint32_t child[kTreeWidth];
+};
+
+/// Up to eight triangles, coordinate by coordinate. Unused places repeat one corner of the last
+/// triangle three times: without area, at no distance that is not its own.
+struct alignas(32) TriangleBlock {
+  float a[3][kTreeWidth];
+  float b[3][kTreeWidth];
+  float c[3][kTreeWidth];
+  std::uint32_t triangle[kTreeWidth];
+};
+
+/// For each child of the node of the same number, what its triangles look like from afar: a
+/// dipole (Barill et al. 2018).
+struct alignas(32) DipoleNode {
+  float centre[3][kTreeWidth];       ///< area-weighted
+  float vector_area[3][kTreeWidth];  ///< sum of area x normal
+  float near_squared[kTreeWidth];    ///< nearer than this it must be looked at in detail
+  float area[kTreeWidth];            ///< weight of the centre
+};
+
+struct TreeHit {
+  std::uint32_t triangle = kNoTriangle;
+  float distance = 0.0F;
+};
+
+struct TreeRay {
+  float origin[3];
+  float direction[3];
+  float max_distance;
+};
+
+struct TreePoint {
+  float point[3];
+  float bound_squared;     ///< look only for what is nearer
+  std::uint32_t triangle;  ///< the answer if nothing is
+};
+
+/// The queries, compiled for one instruction set. All start at node 0.
+struct TreeKernels {
+  TreeHit (*first_hit)(const TreeNode*, const TriangleBlock*, const TreeRay&) noexcept;
+  std::uint32_t (*closest)(const TreeNode*, const TriangleBlock*, const TreePoint&) noexcept;
+  float (*winding)(const TreeNode*, const TriangleBlock*, const DipoleNode*,
+                   const float (&point)[3]) noexcept;
+};
+[[nodiscard]] const TreeKernels& tree_kernels_baseline() noexcept;
+[[nodiscard]] const TreeKernels& tree_kernels_avx2() noexcept;
+/// The fastest that this processor runs.
+[[nodiscard]] const TreeKernels& tree_kernels() noexcept;
+
+}  // namespace nade::detail
