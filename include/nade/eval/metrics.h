@@ -1,0 +1,97 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "nade/hand_mesh.h"
+#include "nade/surface.h"
+
+namespace nade {
+
+/// How well a corrected hand does against its tracked one. The members bear the names of the
+/// metrics; docs/method.md, "Metrics", says what each means. No value where there was nothing to
+/// measure (no pressing frame, no motion).
+struct Metrics {
+  std::size_t frames = 0;           ///< in which the hand was tracked
+  std::size_t pressing_frames = 0;  ///< tracked skin more than 2 mm deep anywhere
+  std::size_t part_samples = 0;     ///< parts pressed, over all frames
+  std::size_t curling_frames = 0;   ///< the person curls 15 degrees more than at first touch
+
+  std::optional<double> penetration_max_mm;
+  std::optional<double> penetration_p99_mm;
+  std::optional<double> penetration_mean_mm;
+  std::optional<double> contact_ratio;
+  std::optional<double> part_gap_mean_mm;
+  std::optional<double> part_gap_p95_mm;
+  std::optional<double> linkage_gain;
+  std::optional<double> linkage_r;
+  std::optional<double> linkage_lag_ms;  ///< positive: the corrected hand comes later
+  std::optional<double> amplification_p999;
+  std::optional<double> amplification_max;
+  std::optional<double> pop_max_mm;
+  std::optional<double> jitter_ratio;
+  std::optional<double> bend_added_median_deg;
+  std::optional<double> bend_added_p95_deg;
+  std::optional<double> limit_violation_max_deg;
+  std::optional<double> curl_kept;
+};
+
+/// What a metric has to reach.
+struct MetricTarget {
+  std::optional<double> at_least;
+  std::optional<double> at_most;
+};
+
+/// One metric, for tables and files.
+struct MetricInfo {
+  const char* key;   ///< the member's name
+  const char* unit;  ///< "mm", "deg", "ms", or "" for a plain number
+  std::optional<double> Metrics::*value;
+  MetricTarget target;
+};
+
+/// Every metric, in the order in which they are reported.
+[[nodiscard]] std::span<const MetricInfo> metric_table();
+
+/// Whether a value meets a target; no value where it has none.
+[[nodiscard]] std::optional<bool> meets(const MetricTarget& target, double value);
+
+struct MetricsOptions {
+  /// The recording's length from wrist to middle knuckle over the mesh's: one number for a whole
+  /// recording, the median of `hand_scale`. > 0.
+  double hand_scale = 1.0;
+};
+
+/// Measures one hand of a recording, a frame at a time, in memory that does not grow.
+class MetricsMeter {
+ public:
+  /// `mesh` is the drawn hand, of the side that is measured; it must outlive the meter.
+  explicit MetricsMeter(const HandMesh& mesh, const MetricsOptions& options = {});
+  MetricsMeter(MetricsMeter&&) noexcept;
+  MetricsMeter& operator=(MetricsMeter&&) noexcept;
+  ~MetricsMeter();
+
+  /// The hand in the next frame, as tracked and as corrected; times increase. A pose that is not
+  /// `is_usable` counts as `add_gap`, and so does a pause of more than 200 ms before this frame.
+  /// The object may move between frames.
+  void add(std::int64_t time_ns, const HandPose& tracked, const HandPose& corrected,
+           const Object& object);
+
+  /// The next frame has no such hand: no motion is measured across it.
+  void add_gap();
+
+  /// Takes in what another meter saw, as for the report over both hands. Only results are
+  /// merged: neither's next frame goes on from the other's last.
+  void merge(const MetricsMeter& other);
+
+  [[nodiscard]] Metrics finish() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace nade

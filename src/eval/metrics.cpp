@@ -1,0 +1,184 @@
+#include "nade/eval/metrics.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "bend_meter.h"
+#include "linkage_meter.h"
+#include "motion_meter.h"
+#include "nade/assert.h"
+#include "nade/eval/quantile.h"
+#include "skin_probe.h"
+
+namespace nade {
+namespace {
+
+/// Motion is not measured over a longer pause than this.
+constexpr std::int64_t kLongestStep_ns = 200'000'000;
+
+/// The hands of a frame, kept for the next.
+struct PastFrame {
+  std::int64_t time_ns = 0;
+  Vec3 palm_tracked = Vec3::Zero();
+  Vec3 palm_corrected = Vec3::Zero();
+  bool palm_pressed = false;
+};
+
+Vec3 in_plane(const Vec3& vector, const Vec3& normal) {
+  return vector - normal.dot(vector) * normal;
+}
+
+bool is_pressed(const SkinReading& tracked, Part part) {
+  return tracked.patch_lowest[index_of(part)] < -kPressing_m;
+}
+
+}  // namespace
+
+struct MetricsMeter::Impl {
+  Impl(const HandMesh& mesh, const MetricsOptions& options)
+      : side(mesh.side),
+        tracked_probe(mesh, options.hand_scale),
+        corrected_probe(mesh, options.hand_scale) {}
+
+  void take_skin(const SkinReading& corrected);
+  void take_gaps(const SkinReading& tracked, const SkinReading& corrected, bool curling);
+  void take_linkage(const PastFrame& now, const Object& object);
+  void break_off();
+
+  Handedness side;
+  SkinProbe tracked_probe;
+  SkinProbe corrected_probe;
+  SurfaceHint palm_hint;
+  std::optional<PastFrame> past;
+
+  std::size_t frames = 0;
+  std::size_t pressing_frames = 0;
+  std::size_t touching_frames = 0;  ///< of the pressing ones
+  QuantileSketch penetration_mm;
+  QuantileSketch part_gap_mm;
+  LinkageMeter linkage;
+  MotionMeter motion;
+  BendMeter bend;
+};
+
+void MetricsMeter::Impl::take_skin(const SkinReading& corrected) {
+  ++pressing_frames;
+  penetration_mm.add(1e3 * std::max(0.0, -corrected.lowest));
+  if (corrected.touches) ++touching_frames;
+}
+
+void MetricsMeter::Impl::take_gaps(const SkinReading& tracked, const SkinReading& corrected,
+                                   bool curling) {
+  for (std::size_t i = 0; i < kPartCount; ++i) {
+    // A palm that rises with the curl of the fingers is meant to.
+    if (curling && part_at(i) == Part::palm) continue;
+    if (!is_pressed(tracked, part_at(i))) continue;
+    part_gap_mm.add(1e3 * std::max(0.0, corrected.patch_lowest[i]));
+  }
+}
+
+void MetricsMeter::Impl::take_linkage(const PastFrame& now, const Object& object) {
+  const bool goes_on = past && past->palm_pressed && now.palm_pressed;
+  const auto surface = object.closest_point(now.palm_tracked, kNotMeasured, palm_hint);
+  if (!goes_on || !surface) {
+    linkage.break_off();
+    return;
+  }
+  PalmStep step;
+  step.seconds = 1e-9 * static_cast<double>(now.time_ns - past->time_ns);
+  step.tracked_m = in_plane(now.palm_tracked - past->palm_tracked, surface->normal);
+  step.corrected_m = in_plane(now.palm_corrected - past->palm_corrected, surface->normal);
+  linkage.add(step);
+}
+
+void MetricsMeter::Impl::break_off() {
+  past.reset();
+  linkage.break_off();
+  motion.break_off();
+  bend.break_off();
+}
+
+MetricsMeter::MetricsMeter(const HandMesh& mesh, const MetricsOptions& options)
+    : impl_(std::make_unique<Impl>(mesh, options)) {}
+MetricsMeter::MetricsMeter(MetricsMeter&&) noexcept = default;
+MetricsMeter& MetricsMeter::operator=(MetricsMeter&&) noexcept = default;
+MetricsMeter::~MetricsMeter() = default;
+
+void MetricsMeter::add_gap() { impl_->break_off(); }
+
+void MetricsMeter::add(std::int64_t time_ns, const HandPose& tracked, const HandPose& corrected,
+                       const Object& object) {
+  NADE_ASSERT(tracked.side == impl_->side && corrected.side == impl_->side);
+  Impl& meter = *impl_;
+  if (!is_usable(tracked) || !is_usable(corrected)) {
+    add_gap();
+    return;
+  }
+  const bool goes_on = meter.past && time_ns > meter.past->time_ns &&
+                       time_ns - meter.past->time_ns <= kLongestStep_ns;
+  if (!goes_on) meter.break_off();
+  ++meter.frames;
+  meter.motion.add(tracked, corrected);
+  const SkinReading tracked_skin = meter.tracked_probe.read(tracked, object);
+  const bool pressing = tracked_skin.lowest < -kPressing_m;
+  const bool curling =
+      meter.bend.add(tracked, corrected, pressing ? Pressing::yes : Pressing::no).curling;
+  if (pressing) {
+    const SkinReading corrected_skin = meter.corrected_probe.read(corrected, object);
+    meter.take_skin(corrected_skin);
+    meter.take_gaps(tracked_skin, corrected_skin, curling);
+  }
+  const PastFrame now{time_ns, tracked[Joint::palm].position, corrected[Joint::palm].position,
+                      is_pressed(tracked_skin, Part::palm)};
+  meter.take_linkage(now, object);
+  meter.past = now;
+}
+
+void MetricsMeter::merge(const MetricsMeter& other) {
+  const Impl& from = *other.impl_;
+  impl_->frames += from.frames;
+  impl_->pressing_frames += from.pressing_frames;
+  impl_->touching_frames += from.touching_frames;
+  impl_->penetration_mm.merge(from.penetration_mm);
+  impl_->part_gap_mm.merge(from.part_gap_mm);
+  impl_->linkage.merge(from.linkage);
+  impl_->motion.merge(from.motion);
+  impl_->bend.merge(from.bend);
+  impl_->break_off();
+}
+
+Metrics MetricsMeter::finish() const {
+  const Impl& meter = *impl_;
+  Metrics metrics;
+  metrics.frames = meter.frames;
+  metrics.pressing_frames = meter.pressing_frames;
+  metrics.part_samples = meter.part_gap_mm.count();
+  metrics.penetration_max_mm = meter.penetration_mm.max();
+  metrics.penetration_p99_mm = meter.penetration_mm.quantile(0.99);
+  metrics.penetration_mean_mm = meter.penetration_mm.mean();
+  if (meter.pressing_frames > 0) {
+    metrics.contact_ratio =
+        static_cast<double>(meter.touching_frames) / static_cast<double>(meter.pressing_frames);
+  }
+  metrics.part_gap_mean_mm = meter.part_gap_mm.mean();
+  metrics.part_gap_p95_mm = meter.part_gap_mm.quantile(0.95);
+  const Linkage linkage = meter.linkage.finish();
+  metrics.linkage_gain = linkage.gain;
+  metrics.linkage_r = linkage.r;
+  metrics.linkage_lag_ms = linkage.lag_ms;
+  const Motion motion = meter.motion.finish();
+  metrics.amplification_p999 = motion.amplification_p999;
+  metrics.amplification_max = motion.amplification_max;
+  metrics.pop_max_mm = motion.pop_max_mm;
+  metrics.jitter_ratio = motion.jitter_ratio;
+  const Bend bend = meter.bend.finish();
+  metrics.curling_frames = bend.curling_frames;
+  metrics.bend_added_median_deg = bend.added_median_deg;
+  metrics.bend_added_p95_deg = bend.added_p95_deg;
+  metrics.limit_violation_max_deg = bend.limit_violation_max_deg;
+  metrics.curl_kept = bend.curl_kept;
+  return metrics;
+}
+
+}  // namespace nade

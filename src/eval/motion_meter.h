@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "nade/eval/quantile.h"
+#include "nade/hand.h"
+
+namespace nade {
+
+/// How much faster and rougher the corrected joints move than the tracked ones.
+struct Motion {
+  std::optional<double> amplification_p999;
+  std::optional<double> amplification_max;
+  std::optional<double> pop_max_mm;
+  std::optional<double> jitter_ratio;
+};
+
+/// Compares how both hands move from frame to frame, over all 26 joints.
+class MotionMeter {
+ public:
+  void add(const HandPose& tracked, const HandPose& corrected);
+  /// The next hand does not go on from the last one.
+  void break_off();
+  void merge(const MotionMeter& other);
+  [[nodiscard]] Motion finish() const;
+
+ private:
+  using Positions = std::array<Vec3, kJointCount>;
+  struct Frame {
+    Positions tracked;
+    Positions corrected;
+  };
+  void take_step(const Frame& now, const Frame& before);
+  void take_bend(const Frame& now, const Frame& before, const Frame& earlier);
+
+  std::array<Frame, 2> past_{};  ///< the last frame, then the one before
+  std::size_t known_ = 0;
+  QuantileSketch amplification_;
+  std::optional<double> pop_max_m_;
+  double tracked_square_ = 0.0;  ///< of second differences, summed
+  double corrected_square_ = 0.0;
+};
+
+}  // namespace nade

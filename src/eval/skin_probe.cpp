@@ -1,0 +1,148 @@
+#include "skin_probe.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "nade/assert.h"
+
+namespace nade {
+namespace {
+
+constexpr std::size_t kClusterCount = 64;
+constexpr double kPalmPatch_m = 0.022;
+constexpr double kTipPatch_m = 0.007;
+constexpr double kPatchFacing = 0.5;  ///< cosine
+
+/// Bit i of a vertex: it is of part i's patch.
+std::vector<std::uint8_t> find_patches(const HandMesh& mesh) {
+  const SkinDepths depths = measure_skin_depths(mesh);
+  std::vector<std::uint8_t> patches(mesh.vertices.size());
+  for (std::size_t part = 0; part < kPartCount; ++part) {
+    const Pose& joint = mesh.bind[joint_of(part_at(part))];
+    const Vec3 palmar = joint.rotation * -Vec3::UnitY();
+    const Vec3 middle = joint.position + depths.depth_m[part] * palmar;
+    const double radius = part_at(part) == Part::palm ? kPalmPatch_m : kTipPatch_m;
+    for (std::size_t i = 0; i < patches.size(); ++i) {
+      const bool near = (mesh.vertices[i].cast<double>() - middle).norm() < radius;
+      const bool facing = mesh.normals[i].cast<double>().dot(palmar) > kPatchFacing;
+      if (near && facing) patches[i] |= static_cast<std::uint8_t>(1U << part);
+    }
+  }
+  return patches;
+}
+
+/// Vertices as far from each other as can be: each next is the farthest from those before.
+std::vector<std::size_t> spread_middles(const HandMesh& mesh, std::vector<std::size_t>& owner) {
+  const std::size_t count = mesh.vertices.size();
+  std::vector<float> distance(count, std::numeric_limits<float>::infinity());
+  owner.assign(count, 0);
+  std::vector<std::size_t> middles;
+  std::size_t next = 0;
+  while (middles.size() < std::min(kClusterCount, count)) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const float to_next = (mesh.vertices[i] - mesh.vertices[next]).squaredNorm();
+      if (to_next >= distance[i]) continue;
+      distance[i] = to_next;
+      owner[i] = middles.size();
+    }
+    middles.push_back(next);
+    next = static_cast<std::size_t>(std::max_element(distance.begin(), distance.end()) -
+                                    distance.begin());
+  }
+  return middles;
+}
+
+/// The hand's joints reach this far from the palm, and the skin no more than `kThickest_m` more.
+constexpr double kThickest_m = 0.06;
+double reach_of(const HandPose& hand, double scale) {
+  double reach = 0.0;
+  for (const Pose& joint : hand.joints) {
+    reach = std::max(reach, (joint.position - hand[Joint::palm].position).norm());
+  }
+  return reach + scale * kThickest_m;
+}
+
+}  // namespace
+
+SkinProbe::SkinProbe(const HandMesh& mesh, double scale) : mesh_(&mesh), scale_(scale) {
+  NADE_ASSERT(scale > 0.0 && std::isfinite(scale));
+  NADE_ASSERT(mesh.normals.size() == mesh.vertices.size());
+  make_clusters(find_patches(mesh));
+  hints_.resize(vertices_.size());
+  skin_.resize(mesh.vertices.size());
+  middles_.reserve(clusters_.size());
+}
+
+void SkinProbe::make_clusters(const std::vector<std::uint8_t>& patches) {
+  std::vector<std::size_t> owner;
+  const std::vector<std::size_t> middles = spread_middles(*mesh_, owner);
+  for (std::size_t c = 0; c < middles.size(); ++c) {
+    Cluster cluster{vertices_.size(), 1, patches[middles[c]]};
+    vertices_.push_back({static_cast<std::uint32_t>(middles[c]), cluster.patches});
+    for (std::size_t i = 0; i < owner.size(); ++i) {
+      if (owner[i] != c || i == middles[c]) continue;
+      vertices_.push_back({static_cast<std::uint32_t>(i), patches[i]});
+      cluster.patches |= patches[i];
+      ++cluster.count;
+    }
+    clusters_.push_back(cluster);
+  }
+}
+
+Vec3 SkinProbe::position(std::size_t slot) const {
+  return skin_[vertices_[slot].index].cast<double>();
+}
+
+double SkinProbe::measure(std::size_t slot, const Object& object, SkinReading& reading) {
+  const auto nearest = object.closest_point(position(slot), kNotMeasured, hints_[slot]);
+  if (!nearest) return kNotMeasured;
+  const double distance = nearest->signed_distance;
+  reading.lowest = std::min(reading.lowest, distance);
+  if (std::abs(distance) <= kTouch_m) reading.touches = true;
+  for (std::size_t part = 0; part < kPartCount; ++part) {
+    if ((vertices_[slot].patches >> part & 1U) == 0) continue;
+    reading.patch_lowest[part] = std::min(reading.patch_lowest[part], distance);
+  }
+  return distance;
+}
+
+void SkinProbe::read_cluster(const MiddleReading& middle, const Object& object,
+                             SkinReading& reading) {
+  const Cluster& cluster = *middle.cluster;
+  const Vec3 center = position(cluster.first);
+  for (std::size_t slot = cluster.first + 1; slot < cluster.first + cluster.count; ++slot) {
+    const double away = (position(slot) - center).norm();
+    const double least = middle.distance_m - away;
+    bool matters = least < reading.lowest;
+    matters |= !reading.touches && least <= kTouch_m && middle.distance_m + away >= -kTouch_m;
+    for (std::size_t part = 0; part < kPartCount && !matters; ++part) {
+      matters = (vertices_[slot].patches >> part & 1U) != 0 && least < reading.patch_lowest[part];
+    }
+    if (matters) static_cast<void>(measure(slot, object, reading));
+  }
+}
+
+SkinReading SkinProbe::read(const HandPose& hand, const Object& object) {
+  SkinReading reading;
+  const Vec3& palm = hand[Joint::palm].position;
+  const auto under_palm = object.closest_point(palm, kNotMeasured, palm_hint_);
+  if (!under_palm) return reading;
+  const double least = under_palm->signed_distance - reach_of(hand, scale_);
+  if (least > kTouch_m) {
+    reading.lowest = least;
+    return reading;
+  }
+  pose_skin(*mesh_, hand, scale_, skin_, {});
+  middles_.clear();
+  for (const Cluster& cluster : clusters_) {
+    middles_.push_back({&cluster, measure(cluster.first, object, reading)});
+  }
+  // Deepest first: what is found there leaves little to look for in the others.
+  std::sort(middles_.begin(), middles_.end(), [](const MiddleReading& a, const MiddleReading& b) {
+    return a.distance_m < b.distance_m;
+  });
+  for (const MiddleReading& middle : middles_) read_cluster(middle, object, reading);
+  return reading;
+}
+
+}  // namespace nade

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "nade/hand_mesh.h"
+#include "nade/surface.h"
+
+namespace nade {
+
+inline constexpr double kNotMeasured = std::numeric_limits<double>::infinity();
+
+/// How a posed skin lies to an object, metres.
+struct SkinReading {
+  /// Signed distance of the deepest vertex; of a hand that touches nowhere, a lower bound.
+  double lowest = kNotMeasured;
+  bool touches = false;  ///< some vertex lies within `kTouch_m` of the surface, from either side
+  /// Signed distance of each part's deepest patch vertex; infinite where it was not looked at.
+  std::array<double, kPartCount> patch_lowest{kNotMeasured, kNotMeasured, kNotMeasured,
+                                              kNotMeasured, kNotMeasured, kNotMeasured};
+};
+
+/// What counts as pressing, and as touching, metres.
+inline constexpr double kPressing_m = 0.002;
+inline constexpr double kTouch_m = 0.002;
+
+/// Measures the posed skin of one hand against an object.
+///
+/// A part's patch is the skin around the point where the part's palmar axis leaves the flesh, in
+/// the bind pose: facing that way (within 60 degrees) and within 22 mm of it for the palm, 7 mm
+/// for a fingertip.
+///
+/// Most vertices need no query: a signed distance changes no faster than the point moves, so one
+/// query at the middle of a cluster of vertices bounds them all. Where a surface's distance is
+/// not of that kind (a sheet's sign changes beyond its border) that may miss a vertex there.
+class SkinProbe {
+ public:
+  SkinProbe(const HandMesh& mesh, double scale);
+
+  [[nodiscard]] SkinReading read(const HandPose& hand, const Object& object);
+
+ private:
+  struct Vertex {
+    std::uint32_t index;   ///< in the mesh
+    std::uint8_t patches;  ///< bit i: belongs to part i
+  };
+  struct Cluster {
+    std::size_t first = 0;  ///< in vertices_: its middle
+    std::size_t count = 0;
+    std::uint8_t patches = 0;  ///< of all its vertices
+  };
+  struct MiddleReading {
+    const Cluster* cluster;
+    double distance_m;  ///< signed
+  };
+
+  void make_clusters(const std::vector<std::uint8_t>& patches);
+  [[nodiscard]] double measure(std::size_t slot, const Object& object, SkinReading& reading);
+  void read_cluster(const MiddleReading& middle, const Object& object, SkinReading& reading);
+  [[nodiscard]] Vec3 position(std::size_t slot) const;
+
+  const HandMesh* mesh_;
+  double scale_;
+  std::vector<Vertex> vertices_;
+  std::vector<Cluster> clusters_;
+  std::vector<SurfaceHint> hints_;  ///< for each of vertices_
+  std::vector<Eigen::Vector3f> skin_;
+  std::vector<MiddleReading> middles_;
+  SurfaceHint palm_hint_;
+};
+
+}  // namespace nade
