@@ -2,21 +2,26 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <variant>
 
 #include "byte_source.h"
 #include "json_text.h"
+#include "leap_import.h"
 #include "nade/io/output_file.h"
 #include "recording_lines.h"
+#include "webxr_import.h"
 
 namespace nade {
 namespace {
 
 using io::ByteSource;
+using io::LeapImport;
 using io::RecordingLines;
 using io::Sketch;
+using io::WebxrImport;
 
-using AnySource = std::variant<RecordingLines>;
+using AnySource = std::variant<RecordingLines, LeapImport, WebxrImport>;  // as RecordingFormat
 
 /// Enough to see what a file is.
 constexpr std::size_t kLookAhead = std::size_t{1} << 16;
@@ -43,6 +48,23 @@ Result<AnySource> recognised(ByteSource source) {
   if (sketch.find("format") != nullptr) return opened<RecordingLines>(std::move(source));
   if (sketch.find("t") != nullptr) {
     return unknown_form(source.name(), "a frame in line 1, without the recording's header");
+  }
+  const Sketch::Member* frames = sketch.find("frames");
+  const std::string_view frames_begin = frames == nullptr ? "" : frames->begins;
+  if (sketch.find("schema") != nullptr) return opened<WebxrImport>(std::move(source));
+  if (sketch.begins.starts_with("[{") || frames_begin.starts_with("[{") ||
+      frames_begin.starts_with("[]")) {
+    return opened<LeapImport>(std::move(source));
+  }
+  if (frames_begin.starts_with("[[") && frames_begin.size() > 2 &&
+      std::isdigit(static_cast<unsigned char>(frames_begin[2])) != 0) {
+    return opened<WebxrImport>(std::move(source));
+  }
+  if (frames_begin.starts_with("[[")) {
+    return Error{ErrorCode::bad_format,
+                 fmt::format("{}: expected raw LeapJS frames, each an object, found the packed "
+                             "form of LeapJS Playback, which has to be unpacked first",
+                             source.name())};
   }
   if (sketch.members.empty()) return unknown_form(source.name(), "none of them");
   return unknown_form(source.name(),

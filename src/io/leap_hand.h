@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+
+#include "nade/hand.h"
+
+namespace nade::io {
+
+/// One finger as a Leap Motion v2 reports it. Metres, world frame.
+struct LeapFinger {
+  Vec3 mcp = Vec3::Zero();  ///< the knuckle; of the thumb the base of its metacarpal
+  Vec3 pip = Vec3::Zero();
+  Vec3 dip = Vec3::Zero();
+  Vec3 tip = Vec3::Zero();  ///< the end of the last bone, inside the flesh
+};
+
+/// One hand as a Leap Motion v2 reports it: no wrist, no metacarpals. Metres, world frame.
+struct LeapHand {
+  Handedness side = Handedness::right;
+  Vec3 palm = Vec3::Zero();
+  Vec3 palm_normal = -Vec3::UnitY();  ///< out of the palm
+  Vec3 direction = -Vec3::UnitZ();    ///< from the palm to the fingers
+  double confidence = 1.0;
+  std::array<LeapFinger, kDigitCount> fingers{};
+};
+
+/// The 26 joints: what was measured as it is; wrist, metacarpal joints and the turn of each bone
+/// about itself inferred (docs/formats.md says how). Without memory, so without lag. Degenerate
+/// input gives a pose that is not `is_usable`, or one turned like the palm where a bone has no
+/// length.
+[[nodiscard]] HandPose hand_from_leap(const LeapHand& leap);
+
+}  // namespace nade::io

@@ -1,0 +1,179 @@
+#include "leap_import.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace nade::io {
+namespace {
+
+constexpr double kMetresPerMillimetre = 1e-3;
+constexpr double kNanosecondsPerMicrosecond = 1e3;
+constexpr double kLatest_us = 9e15;  // a double still tells microseconds apart
+
+std::optional<double> finite_number(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  if (found == object.end() || !found->is_number()) return std::nullopt;
+  return found->get<double>();
+}
+
+std::optional<Vec3> vector_of(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  if (found == object.end() || !found->is_array() || found->size() != 3) return std::nullopt;
+  Vec3 result;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!(*found)[k].is_number()) return std::nullopt;
+    result[static_cast<Eigen::Index>(k)] = (*found)[k].get<double>();
+  }
+  return result;
+}
+
+std::optional<Vec3> position_of(const Json& object, const char* key) {
+  const std::optional<Vec3> millimetres = vector_of(object, key);
+  if (!millimetres) return std::nullopt;
+  return Vec3(kMetresPerMillimetre * *millimetres);
+}
+
+std::optional<LeapFinger> finger_of(const Json& pointable) {
+  const auto mcp = position_of(pointable, "mcpPosition");
+  const auto pip = position_of(pointable, "pipPosition");
+  const auto dip = position_of(pointable, "dipPosition");
+  const auto tip = position_of(pointable, "tipPosition");
+  if (!mcp || !pip || !dip || !tip) return std::nullopt;
+  return LeapFinger{*mcp, *pip, *dip, *tip};
+}
+
+/// The fingers of the hand with this id; none where one of the five is missing.
+std::optional<std::array<LeapFinger, kDigitCount>> fingers_of(const Json& frame, const Json& id) {
+  std::array<std::optional<LeapFinger>, kDigitCount> found{};
+  const auto pointables = frame.find("pointables");
+  if (pointables == frame.end() || !pointables->is_array()) return std::nullopt;
+  for (const Json& pointable : *pointables) {
+    if (!pointable.is_object() || pointable.value("handId", Json()) != id) continue;
+    const std::optional<double> type = finite_number(pointable, "type");
+    if (!type || !(*type >= 0.0) || !(*type < double{kDigitCount})) continue;
+    found[static_cast<std::size_t>(*type)] = finger_of(pointable);
+  }
+  std::array<LeapFinger, kDigitCount> fingers;
+  for (std::size_t i = 0; i < kDigitCount; ++i) {
+    if (!found[i]) return std::nullopt;
+    fingers[i] = *found[i];
+  }
+  return fingers;
+}
+
+std::optional<Handedness> side_of(const Json& hand) {
+  const Json type = hand.value("type", Json());
+  if (type == "left") return Handedness::left;
+  if (type == "right") return Handedness::right;
+  return std::nullopt;
+}
+
+}  // namespace
+
+LeapImport::LeapImport(ByteSource source) : frames_(std::move(source)) {
+  header_.source = "leap";
+  header_.hand_scale_known = true;
+}
+
+Result<LeapImport> LeapImport::open(ByteSource source) {
+  LeapImport import(std::move(source));
+  const Status status =
+      import.frames_.enter([](const std::string&, const Json&) { return ok_status(); });
+  if (!status) return status.error();
+  return import;
+}
+
+std::string LeapImport::place() const { return frames_.place(); }
+
+void LeapImport::leave_out(Oddity oddity, const std::string& what) {
+  warnings_.add(oddity, fmt::format("{}: {}", place(), what));
+}
+
+Result<std::optional<RecordedFrame>> LeapImport::next() {
+  while (true) {
+    const Result<std::optional<Json>> json = frames_.next(warnings_);
+    if (!json) return json.error();
+    if (!*json) return std::optional<RecordedFrame>();
+    if (!(*json)->is_object()) {
+      return Error{ErrorCode::bad_value,
+                   fmt::format("{}: expected a frame, found a {}", place(), (*json)->type_name())};
+    }
+    Result<RecordedFrame> frame = read_frame(**json);
+    if (!frame) return frame.error();
+    if (last_time_ns_ && frame->time_ns <= *last_time_ns_) {
+      leave_out(Oddity::time_not_advancing, "the time does not advance; the frame is left out");
+      continue;
+    }
+    last_time_ns_ = frame->time_ns;
+    return std::optional<RecordedFrame>(std::move(frame).value());
+  }
+}
+
+Result<RecordedFrame> LeapImport::read_frame(const Json& frame) {
+  RecordedFrame result;
+  const std::optional<double> time_us = finite_number(frame, "timestamp");
+  if (!time_us || !(std::abs(*time_us) < kLatest_us)) {
+    return Error{ErrorCode::bad_value,
+                 fmt::format("{}: timestamp: expected a time in microseconds, found {}", place(),
+                             frame.contains("timestamp") ? frame["timestamp"].dump() : "none")};
+  }
+  result.time_ns = std::llround(*time_us * kNanosecondsPerMicrosecond);
+  const auto hands = frame.find("hands");
+  if (hands == frame.end()) return result;
+  if (!hands->is_array()) {
+    return Error{ErrorCode::bad_value, fmt::format("{}: hands: expected an array, found a {}",
+                                                   place(), hands->type_name())};
+  }
+  for (std::size_t i = 0; i < hands->size(); ++i) {
+    const Status status = read_hand(frame, i, result);
+    if (!status) return status.error();
+  }
+  return result;
+}
+
+Status LeapImport::read_hand(const Json& frame, std::size_t hand_index, RecordedFrame& result) {
+  const Json& hand = frame["hands"][hand_index];
+  const std::optional<Handedness> side =
+      hand.is_object() ? side_of(hand) : std::optional<Handedness>();
+  if (!side) {
+    return Error{ErrorCode::bad_value,
+                 fmt::format("{}: hands[{}]: type: expected \"left\" or \"right\", as a Leap "
+                             "Motion v2 writes it",
+                             place(), hand_index)};
+  }
+  const auto palm = position_of(hand, "palmPosition");
+  const auto normal = vector_of(hand, "palmNormal");
+  const auto direction = vector_of(hand, "direction");
+  const auto fingers = fingers_of(frame, hand.value("id", Json()));
+  if (!fingers) {
+    leave_out(Oddity::finger_missing,
+              fmt::format("{}: one of the five fingers is missing or not finite; the hand is left "
+                          "out of the frame",
+                          name_of(*side)));
+    return ok_status();
+  }
+  RecordedHand recorded;
+  if (palm && normal && direction) {
+    const double confidence = finite_number(hand, "confidence").value_or(1.0);
+    recorded.pose = hand_from_leap(
+        {*side, *palm, *normal, *direction, std::clamp(confidence, 0.0, 1.0), *fingers});
+  }
+  if (!palm || !normal || !direction || !is_usable(recorded.pose)) {
+    leave_out(Oddity::unusable_hand,
+              fmt::format("{}: the palm or a joint is not finite or half a metre from the wrist; "
+                          "the hand is left out of the frame",
+                          name_of(*side)));
+    return ok_status();
+  }
+  std::optional<RecordedHand>& place_in_frame = result.hands[index_of(*side)];
+  if (place_in_frame) {
+    leave_out(Oddity::hand_twice,
+              fmt::format("two {} hands; the one of less confidence is left out", name_of(*side)));
+    if (place_in_frame->pose.confidence >= recorded.pose.confidence) return ok_status();
+  }
+  place_in_frame = std::move(recorded);
+  return ok_status();
+}
+
+}  // namespace nade::io
