@@ -1,0 +1,98 @@
+#include "object_options.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <string_view>
+
+namespace nade::cli {
+namespace {
+
+/// "X,Y,Z" as numbers; no value where it is anything else.
+template <std::size_t count>
+std::optional<std::array<double, count>> parse_numbers(std::string_view text) {
+  std::array<double, count> values{};
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t comma = text.find(',');
+    const bool last = i + 1 == count;
+    if (last != (comma == std::string_view::npos)) return std::nullopt;
+    const std::string_view number = text.substr(0, comma);
+    const char* const end = number.data() + number.size();
+    const auto [stop, code] = std::from_chars(number.data(), end, values[i]);
+    if (code != std::errc{} || stop != end || !std::isfinite(values[i])) return std::nullopt;
+    if (!last) text.remove_prefix(comma + 1);
+  }
+  return values;
+}
+
+[[noreturn]] void refuse(const std::string& option, const std::string& text,
+                         std::string_view expected) {
+  throw CLI::ValidationError(option, fmt::format("expected {}, found '{}'", expected, text));
+}
+
+}  // namespace
+
+void add_object_options(CLI::App& command, ObjectOptions& options) {
+  command
+      .add_option(
+          "--object", options.object,
+          "plane, sphere, sphere:RADIUS, dog, or a mesh file (.glb .gltf .obj .stl .ply .off)")
+      ->type_name("OBJECT");
+  command
+      .add_option_function<std::string>(
+          "--at",
+          [&options](const std::string& text) {
+            const auto at = parse_numbers<3>(text);
+            if (!at) refuse("--at", text, "three numbers X,Y,Z");
+            options.at = Vec3(at->data());
+          },
+          "where the object's origin is, metres")
+      ->type_name("X,Y,Z");
+  command
+      .add_option_function<std::string>(
+          "--turn",
+          [&options](const std::string& text) {
+            const auto turn = parse_numbers<4>(text);
+            const Quat rotation = turn ? Quat(turn->data()) : Quat(0.0, 0.0, 0.0, 0.0);
+            if (!(rotation.norm() > 1e-6)) {
+              refuse("--turn", text, "four numbers QX,QY,QZ,QW, not all 0");
+            }
+            options.turn = rotation.normalized();
+          },
+          "how the object is turned, a quaternion")
+      ->type_name("QX,QY,QZ,QW");
+  command
+      .add_option_function<std::string>(
+          "--scale",
+          [&options](const std::string& text) {
+            const auto scale = parse_numbers<1>(text);
+            if (!scale || !(scale->front() > 0.0)) refuse("--scale", text, "a number above 0");
+            options.scale = scale->front();
+          },
+          "how many times larger the object is")
+      ->type_name("S");
+}
+
+Result<PlacedObject> load_placed(const ObjectOptions& options,
+                                 const std::optional<ObjectPlacing>& recorded) {
+  const bool same = recorded && (!options.object || *options.object == recorded->object);
+  if (!options.object && !recorded) {
+    return Error{ErrorCode::out_of_range,
+                 "--object is required: plane, sphere, sphere:RADIUS, dog or a mesh file"};
+  }
+  Result<LoadedObject> loaded = load_object(options.object ? *options.object : recorded->object);
+  if (!loaded) return loaded.error();
+  for (const std::string& warning : loaded->warnings) {
+    std::fprintf(stderr, "nade: %s\n", warning.c_str());
+  }
+  Placement placement = same ? recorded->placement : Placement{};
+  if (options.at) placement.pose.position = *options.at;
+  if (options.turn) placement.pose.rotation = *options.turn;
+  if (options.scale) placement.scale = *options.scale;
+  return PlacedObject{std::move(loaded).value(), placement};
+}
+
+}  // namespace nade::cli

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "nade/io/object_file.h"
+#include "nade/status.h"
+
+namespace nade::cli {
+
+/// Which object, and where: --object, --at, --turn, --scale, as far as they were given.
+struct ObjectOptions {
+  std::optional<std::string> object;
+  std::optional<Vec3> at;
+  std::optional<Quat> turn;
+  std::optional<double> scale;
+};
+
+/// Adds the options to a command. What cannot be read is refused while parsing.
+void add_object_options(CLI::App& command, ObjectOptions& options);
+
+/// An object, loaded, and where it stands.
+struct PlacedObject {
+  LoadedObject loaded;
+  Placement placement;
+
+  [[nodiscard]] Object object() const { return loaded.placed(placement); }
+  [[nodiscard]] ObjectPlacing placing() const { return {loaded.spec, placement}; }
+};
+
+/// Loads the object that was asked for. What the command line leaves open is taken from
+/// `recorded`, where that is of the same object or the command line names none. Warnings about
+/// the object go to stderr.
+[[nodiscard]] Result<PlacedObject> load_placed(const ObjectOptions& options,
+                                               const std::optional<ObjectPlacing>& recorded = {});
+
+}  // namespace nade::cli
