@@ -90,7 +90,9 @@ Result<RecordingReader> RecordingReader::open(const std::string& path) {
   return RecordingReader(std::make_unique<Impl>(Impl{std::move(source).value()}));
 }
 
-RecordingFormat RecordingReader::format() const { return RecordingFormat::nade; }
+RecordingFormat RecordingReader::format() const {
+  return static_cast<RecordingFormat>(impl_->source.index());
+}
 
 const RecordingHeader& RecordingReader::header() const {
   return std::visit([](const auto& source) -> const RecordingHeader& { return source.header(); },
