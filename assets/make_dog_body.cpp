@@ -68,9 +68,9 @@ Vec3 mirrored(const Side& side, double x, double y, double z) { return {x, y, si
 Part make_torso() {
   Part part{"torso", {}, 0.05, kTrunkEdge};
   // Deep chest, ribs widest a little above the middle, loin tucked up.
-  part.shapes.push_back(tube({{{-0.190, 0.338, 0}, 0.054, 0.068},
-                              {{-0.150, 0.334, 0}, 0.069, 0.098},
-                              {{-0.090, 0.331, 0}, 0.078, 0.111, 0.05},
+  part.shapes.push_back(tube({{{-0.186, 0.332, 0}, 0.056, 0.076},
+                              {{-0.150, 0.332, 0}, 0.070, 0.100},
+                              {{-0.090, 0.332, 0}, 0.078, 0.113, 0.05},
                               {{-0.020, 0.336, 0}, 0.083, 0.106, 0.05},
                               {{0.060, 0.350, 0}, 0.077, 0.090},
                               {{0.130, 0.359, 0}, 0.067, 0.078},
@@ -78,24 +78,24 @@ Part make_torso() {
                               {{0.215, 0.350, 0}, 0.058, 0.066}},
                              kLeft, 0.045, 0.04, 2.25));
   // Breastbone.
-  part.shapes.push_back({Ellipsoid{{-0.196, 0.328, 0}, {0.040, 0.058, 0.044}}, 0.05});
+  part.shapes.push_back({Ellipsoid{{-0.188, 0.322, 0}, {0.045, 0.066, 0.046}}, 0.05});
   return part;
 }
 
 Part make_neck() {
-  Part part{"neck", {}, 0.08, kTrunkEdge};
-  part.shapes.push_back(tube({{{-0.105, 0.365, 0}, 0.060, 0.080},
-                              {{-0.160, 0.418, 0}, 0.058, 0.075},
-                              {{-0.205, 0.470, 0}, 0.053, 0.063},
-                              {{-0.240, 0.522, 0}, 0.048, 0.047}},
-                             kLeft, 0.03, 0.04));
+  Part part{"neck", {}, 0.06, kTrunkEdge};
+  part.shapes.push_back(tube({{{-0.130, 0.370, 0}, 0.058, 0.078},
+                              {{-0.170, 0.420, 0}, 0.057, 0.076},
+                              {{-0.203, 0.470, 0}, 0.053, 0.063},
+                              {{-0.232, 0.512, 0}, 0.043, 0.042}},
+                             kLeft, 0.02, 0.04));
   return part;
 }
 
 Part make_skull(const HeadFrame& head) {
-  Part part{"head", {}, 0.045, kHeadEdge};
-  part.shapes.push_back(head.tube({{{0.048, 0.004, 0}, 0.034, 0.034},
-                                   {{0.015, 0.006, 0}, 0.051, 0.046},
+  Part part{"head", {}, 0.060, kHeadEdge};
+  part.shapes.push_back(head.tube({{{0.040, -0.008, 0}, 0.040, 0.035},
+                                   {{0.012, 0.003, 0}, 0.051, 0.046},
                                    {{-0.022, 0.004, 0}, 0.050, 0.045},
                                    {{-0.052, -0.006, 0}, 0.038, 0.034}},
                                   kLeft, 0.022, 0.02, 2.2));
@@ -114,7 +114,7 @@ Part make_muzzle(const HeadFrame& head) {
   part.shapes.push_back(head.tube({{{-0.040, -0.018, 0}, 0.036, 0.031},
                                    {{-0.072, -0.017, 0}, 0.0305, 0.0270, -0.08},
                                    {{-0.105, -0.018, 0}, 0.0285, 0.0250, -0.08},
-                                   {{-0.124, -0.019, 0}, 0.0255, 0.0225, -0.08}},
+                                   {{-0.126, -0.019, 0}, 0.0235, 0.0230, -0.08}},
                                   kLeft, 0.013, 0.02, 2.4));
   // Lower jaw and chin.
   part.shapes.push_back(head.tube({{{-0.030, -0.040, 0}, 0.028, 0.018},
@@ -123,16 +123,16 @@ Part make_muzzle(const HeadFrame& head) {
                                   kLeft, 0.011, 0.012));
   for (const Side& side : kSides)  // lips
     part.shapes.push_back(
-        head.ellipsoid(mirrored(side, -0.098, -0.029, 0.0155), {0.036, 0.0185, 0.0160}, 0.016));
+        head.ellipsoid(mirrored(side, -0.095, -0.029, 0.0145), {0.036, 0.0185, 0.0160}, 0.016));
   return part;
 }
 
 Part make_nose(const HeadFrame& head) {
   Part part{"nose", {}, 0.006, kNoseEdge};
-  part.shapes.push_back(head.ellipsoid({-0.1340, -0.0030, 0}, {0.0105, 0.0100, 0.0155}, 0.008));
+  part.shapes.push_back(head.ellipsoid({-0.1320, -0.0060, 0}, {0.0100, 0.0120, 0.0155}, 0.008));
   for (const Side& side : kSides)
     part.shapes.push_back(
-        head.ellipsoid(mirrored(side, -0.1345, -0.0050, 0.0095), {0.0092, 0.0080, 0.0080}, 0.006));
+        head.ellipsoid(mirrored(side, -0.1325, -0.0060, 0.0095), {0.0090, 0.0090, 0.0080}, 0.006));
   return part;
 }
 
@@ -144,15 +144,15 @@ Part make_eye(const HeadFrame& head, const Side& side) {
 }
 
 Part make_ear(const HeadFrame& head, const Side& side) {
-  Part part{side.name + " ear", {}, 0.020, kEarEdge};
+  Part part{side.name + " ear", {}, 0.026, kEarEdge};
   // A soft flap: folds over at the root, widest in the middle, rounded tip; hangs a little off the
   // cheek.
-  part.shapes.push_back(head.tube({{mirrored(side, 0.016, 0.026, 0.030), 0.020, 0.0120},
-                                   {mirrored(side, 0.014, 0.030, 0.050), 0.024, 0.0100},
-                                   {mirrored(side, 0.008, 0.014, 0.0665), 0.0275, 0.0078},
-                                   {mirrored(side, 0.000, -0.012, 0.0735), 0.0270, 0.0070},
-                                   {mirrored(side, -0.007, -0.038, 0.0755), 0.0215, 0.0066}},
-                                  Vec3::UnitX(), 0.017, 0.01, 2.6));
+  part.shapes.push_back(head.tube({{mirrored(side, 0.018, 0.024, 0.030), 0.020, 0.0120},
+                                   {mirrored(side, 0.016, 0.028, 0.052), 0.024, 0.0095},
+                                   {mirrored(side, 0.010, 0.013, 0.0705), 0.0280, 0.0078},
+                                   {mirrored(side, 0.001, -0.014, 0.0780), 0.0270, 0.0070},
+                                   {mirrored(side, -0.008, -0.040, 0.0795), 0.0175, 0.0064}},
+                                  Vec3::UnitX(), 0.020, 0.01, 2.2));
   return part;
 }
 
@@ -171,14 +171,14 @@ Part make_paw(const Side& side, const std::string& limb, double x, double z) {
 }
 
 Part make_fore_leg(const Side& side) {
-  Part part{side.name + " fore leg", {}, 0.045, kLegEdge};
+  Part part{side.name + " fore leg", {}, 0.055, kLegEdge};
   const auto at = [&](double x, double y, double z) { return mirrored(side, x, y, z); };
   // Shoulder blade to elbow lies in the chest wall; forearm, wrist and pastern are free.
   part.shapes.push_back(tube({{at(-0.120, 0.400, 0.040), 0.045, 0.028},
-                              {at(-0.170, 0.325, 0.052), 0.046, 0.028},
-                              {at(-0.142, 0.250, 0.056), 0.040, 0.027}},
+                              {at(-0.176, 0.322, 0.050), 0.046, 0.030},
+                              {at(-0.140, 0.245, 0.055), 0.038, 0.027}},
                              kForward, 0.03, 0.04));
-  part.shapes.push_back(tube({{at(-0.138, 0.265, 0.056), 0.038, 0.027},
+  part.shapes.push_back(tube({{at(-0.139, 0.250, 0.055), 0.034, 0.025},
                               {at(-0.139, 0.215, 0.056), 0.0325, 0.0255},
                               {at(-0.143, 0.160, 0.055), 0.0250, 0.0220},
                               {at(-0.145, 0.105, 0.054), 0.0218, 0.0205},
@@ -196,14 +196,14 @@ Part make_hind_leg(const Side& side) {
                               {at(0.172, 0.310, 0.047), 0.062, 0.035},
                               {at(0.163, 0.245, 0.056), 0.050, 0.031},
                               {at(0.188, 0.182, 0.057), 0.031, 0.0240},
-                              {at(0.220, 0.130, 0.056), 0.0210, 0.0190}},
+                              {at(0.221, 0.130, 0.056), 0.0200, 0.0180}},
                              kForward, 0.04, 0.04));
   // Hock to paw, the heel bone standing out behind.
-  part.shapes.push_back(tube({{at(0.237, 0.138, 0.056), 0.0130, 0.0130},
-                              {at(0.231, 0.110, 0.056), 0.0190, 0.0178},
-                              {at(0.227, 0.070, 0.056), 0.0178, 0.0178},
+  part.shapes.push_back(tube({{at(0.2335, 0.142, 0.056), 0.0135, 0.0130},
+                              {at(0.2315, 0.112, 0.056), 0.0160, 0.0160},
+                              {at(0.2265, 0.070, 0.056), 0.0165, 0.0172},
                               {at(0.220, 0.030, 0.056), 0.0195, 0.0200}},
-                             kForward, 0.012, 0.030));
+                             kForward, 0.010, 0.026));
   return part;
 }
 
@@ -225,7 +225,7 @@ Furrow make_mouth(const HeadFrame& head, const Side& side) {
   return {side.name + " mouth",
           Tube(std::vector<Station>{at(-0.138, -0.022, 0.000), at(-0.128, -0.0405, 0.014),
                                     at(-0.105, -0.0425, 0.0245), at(-0.080, -0.0415, 0.0285),
-                                    at(-0.060, -0.034, 0.0335)},
+                                    at(-0.060, -0.035, 0.0315), at(-0.046, -0.030, 0.0220)},
                kUp, 0.002),
           0.0016, 0.0028, kMouthEdge};
 }

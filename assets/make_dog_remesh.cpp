@@ -304,7 +304,7 @@ Mesh remesh(const Body& body, const Mesh& rough) {
   }
   for (int pass = 0; pass < kSmoothingPasses; ++pass) {
     mesh.flip_to_delaunay();
-    mesh.relax(pass + 1 == kSmoothingPasses ? 4 : 1);
+    mesh.relax(pass + 1 == kSmoothingPasses ? 8 : 1);
   }
   return mesh.compact();
 }

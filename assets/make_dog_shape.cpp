@@ -114,8 +114,8 @@ double Tube::nearest_parameter(const Vec3& point) const {
       best = i;
     }
   }
-  double low = samples_[best == 0 ? 0 : best - 1].parameter;
-  double high = samples_[std::min(best + 1, samples_.size() - 1)].parameter;
+  const double low = samples_[best == 0 ? 0 : best - 1].parameter;
+  const double high = samples_[std::min(best + 1, samples_.size() - 1)].parameter;
   double parameter = samples_[best].parameter;
   for (int step = 0; step < kNewtonSteps; ++step) {
     const Segment& s = segment_at(parameter);
@@ -127,7 +127,9 @@ double Tube::nearest_parameter(const Vec3& point) const {
     const double slope = offset.dot(first);
     const double bend = offset.dot(second) - first.squaredNorm();
     if (bend > -1e-3) break;  // beyond the curve's centre of curvature: keep the sample
+    const double before = parameter;
     parameter = std::clamp(parameter - slope / bend, low, high);
+    if (std::abs(parameter - before) < 1e-12) break;
   }
   return parameter;
 }
@@ -227,11 +229,11 @@ FieldSample Body::sample(const Vec3& point) const {
 }
 
 Vec3 Body::project(const Vec3& point, int steps) const {
-  constexpr double kLongestStep = 0.01;
+  constexpr double kLongestStep = 0.002;
   Vec3 result = point;
   for (int i = 0; i < steps; ++i) {
     const FieldSample field = sample(result);
-    const double squared = std::max(field.gradient.squaredNorm(), 0.05);
+    const double squared = std::max(field.gradient.squaredNorm(), 1e-3);
     Vec3 step = -field.distance / squared * field.gradient;
     if (step.norm() > kLongestStep) step *= kLongestStep / step.norm();
     result += step;
