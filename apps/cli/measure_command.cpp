@@ -97,6 +97,13 @@ class SpooledInput {
   }
   [[nodiscard]] const std::string& path() const { return path_; }
 
+  /// The error with the file called what it is to the person.
+  [[nodiscard]] Error renamed(Error error) const {
+    const std::size_t at = error.message.find(path_);
+    if (at != std::string::npos) error.message.replace(at, path_.size(), "standard input");
+    return error;
+  }
+
  private:
   SpooledInput() = default;
   static Error unwritable(const std::string& path) {
@@ -307,7 +314,7 @@ Status run_measure(const MeasureArguments& arguments) {
   }
   const Result<MeasureReport> report =
       measure(arguments, spooled ? spooled->path() : arguments.tracked);
-  if (!report) return report.error();
+  if (!report) return spooled ? spooled->renamed(report.error()) : report.error();
   if (arguments.json) {
     const Status written = write_whole(*arguments.json, as_json(*report));
     if (!written) return written;
