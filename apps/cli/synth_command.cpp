@@ -1,8 +1,12 @@
-#include <cmath>
-#include <map>
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstdint>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "commands.h"
 #include "nade/eval/synth.h"
@@ -19,15 +23,40 @@ struct SynthArguments {
   double tilt_deg = 0.0;
 };
 
-const std::map<std::string, Stroke> kStrokes{{"line", Stroke::line},
-                                             {"circle", Stroke::circle},
-                                             {"zigzag", Stroke::zigzag},
-                                             {"curl", Stroke::curl},
-                                             {"press", Stroke::press}};
-const std::map<std::string, Handedness> kHands{{"left", Handedness::left},
-                                               {"right", Handedness::right}};
-const std::map<std::string, NoiseModel> kNoises{
-    {"none", NoiseModel::none}, {"leap", NoiseModel::leap}, {"quest", NoiseModel::quest}};
+std::optional<Handedness> hand_from_name(std::string_view name) {
+  for (const Handedness side : {Handedness::left, Handedness::right}) {
+    if (name == name_of(side)) return side;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::uint64_t> seed_from(std::string_view text) {
+  std::uint64_t seed = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, code] = std::from_chars(text.data(), end, seed);
+  if (code != std::errc{} || stop != end) return std::nullopt;
+  return seed;
+}
+
+/// An option whose text `parse` turns into a value, or into none where it is not `expected`.
+template <class T>
+void add_parsed(CLI::App& command, const std::string& name, T& value,
+                std::optional<T> (*parse)(std::string_view), const std::string& expected,
+                const std::string& help) {
+  command
+      .add_option_function<std::string>(
+          name,
+          [=, &value](const std::string& text) {
+            const std::optional<T> parsed = parse(text);
+            if (!parsed) {
+              throw CLI::ValidationError(name,
+                                         fmt::format("expected {}, found '{}'", expected, text));
+            }
+            value = *parsed;
+          },
+          help)
+      ->type_name(expected);
+}
 
 Status run_synth(const SynthArguments& arguments) {
   SynthOptions options = arguments.synth;
@@ -59,8 +88,8 @@ void add_synth(CLI::App& app, Action& action) {
       ->type_name("OUT")
       ->required();
   add_object_options(*command, arguments->object);
-  command->add_option("--stroke", synth.stroke, "how the hand moves")
-      ->transform(CLI::CheckedTransformer(kStrokes).description("line|circle|zigzag|curl|press"));
+  add_parsed(*command, "--stroke", synth.stroke, stroke_from_name, "line|circle|zigzag|curl|press",
+             "how the hand moves (default line)");
   command
       ->add_option("--place", synth.place,
                    "where on the object: on the dog back|flank|head|ear|leg")
@@ -76,19 +105,18 @@ void add_synth(CLI::App& app, Action& action) {
                    "of the hand against the surface; above 0 raises the fingertips")
       ->type_name("DEG")
       ->capture_default_str();
-  command->add_option("--hand", synth.side, "which hand")
-      ->transform(CLI::CheckedTransformer(kHands).description("left|right"));
+  add_parsed(*command, "--hand", synth.side, hand_from_name, "left|right",
+             "which hand (default right)");
   command->add_option("--duration", synth.duration_s, "of the recording")
       ->type_name("S")
       ->capture_default_str();
   command->add_option("--rate", synth.rate_hz, "frames a second")
       ->type_name("HZ")
       ->capture_default_str();
-  command->add_option("--noise", synth.noise, "whose tracking errors the hand bears")
-      ->transform(CLI::CheckedTransformer(kNoises).description("none|leap|quest"));
-  command->add_option("--seed", synth.seed, "of the tracking errors")
-      ->type_name("N")
-      ->capture_default_str();
+  add_parsed(*command, "--noise", synth.noise, noise_from_name, "none|leap|quest",
+             "whose tracking errors the hand bears (default none)");
+  add_parsed(*command, "--seed", synth.seed, seed_from, "a whole number",
+             "of the tracking errors (default 1)");
   command->add_option("--hand-scale", synth.hand_scale, "how many times larger the hand is")
       ->type_name("S")
       ->capture_default_str();

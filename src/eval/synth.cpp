@@ -27,7 +27,9 @@ constexpr double kLineHalf_m = 0.10;
 constexpr double kCircleRadius_m = 0.05;
 constexpr double kZigzagHalf_m = 0.08;
 constexpr double kZigzagAside_m = 0.03;
-constexpr double kZigzagWaves = 5.0;
+constexpr double kZigzagWavesMin = 3.0;  // there and back together; with fewer it is an oval
+constexpr double kZigzagWavesMax = 5.0;
+constexpr int kSizings = 8;           // to come within 0.1 % of the speed
 constexpr double kSoftStart_s = 0.4;  // of a circle or zigzag
 constexpr double kCurlPeriod_s = 2.0;
 constexpr double kCurlSpeedShare = 1.0 / 3.0;
@@ -105,8 +107,9 @@ HandPose shaped(const HandPose& relaxed, const SynthOptions& options) {
   return hand;
 }
 
-/// A stroke's largest pattern on a patch; `size` shrinks it.
-Pattern pattern_of(Stroke stroke, const PlaceExtent& extent, Handedness side, double size) {
+/// A stroke's largest pattern on a patch, for a way of `distance` metres; `size` shrinks it.
+Pattern pattern_of(Stroke stroke, const PlaceExtent& extent, Handedness side, double distance,
+                   double size) {
   // A left hand draws the mirror image.
   const double aside = side == Handedness::right ? size : -size;
   switch (stroke) {
@@ -124,9 +127,11 @@ Pattern pattern_of(Stroke stroke, const PlaceExtent& extent, Handedness side, do
     }
     case Stroke::zigzag: {
       const double half = size * std::min(kZigzagHalf_m, 0.9 * extent.forward);
-      const double width = aside * std::min(kZigzagAside_m, 0.6 * extent.aside);
+      const double width = std::min(kZigzagAside_m, 0.6 * extent.aside);
+      const double waves =
+          std::clamp(std::floor(distance / (4.0 * width)), kZigzagWavesMin, kZigzagWavesMax);
       return [=](double x) {
-        return PatternPoint{width * std::sin(2.0 * kPi * kZigzagWaves * x),
+        return PatternPoint{aside * width * std::sin(2.0 * kPi * waves * x),
                             -half * std::cos(2.0 * kPi * x)};
       };
     }
@@ -146,23 +151,23 @@ struct Course {
 /// the stroke's time at the speed asked for.
 Course plan_course(const StrokePatch& patch, const SynthOptions& options, double stroke_s,
                    const Vec3& palm_from_skin) {
+  const double share = options.stroke == Stroke::curl ? kCurlSpeedShare : 1.0;
+  const double distance = share * options.speed_m_per_s * stroke_s;
   const PlaceExtent extent = patch.extent();
   const auto lay = [&](double size) {
-    return Rail(patch, pattern_of(options.stroke, extent, options.side, size), options.depth_m);
+    return Rail(patch, pattern_of(options.stroke, extent, options.side, distance, size),
+                options.depth_m);
   };
   Course course{lay(1.0)};
   if (options.stroke == Stroke::press) {
     // Down and up is twice the depth.
-    const double cycles = options.speed_m_per_s * stroke_s / std::max(2.0 * options.depth_m, 1e-3);
-    course.passes = std::max(1.0, std::round(cycles));
+    course.passes = std::max(1.0, std::round(distance / std::max(2.0 * options.depth_m, 1e-3)));
     return course;
   }
-  const double share = options.stroke == Stroke::curl ? kCurlSpeedShare : 1.0;
-  const double distance = share * options.speed_m_per_s * stroke_s;
   double length = course.rail.length(palm_from_skin);
   course.passes = std::max(1.0, std::ceil(distance / length - 0.01));
   double size = 1.0;
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < kSizings; ++i) {
     const double ratio = distance / course.passes / length;
     if (std::abs(ratio - 1.0) < 1e-3) break;
     size *= ratio;

@@ -8,9 +8,9 @@
 namespace nade {
 namespace {
 
-constexpr int kSteps = 400;        // knots from x = 0 to x = 1
-constexpr double kBlur_m = 0.006;  // what is finer than this is not followed by a hand
-constexpr int kBlurKnotsMax = 24;  // of one side of the blur
+constexpr int kSteps = 256;        // knots from x = 0 to x = 1
+constexpr double kBlur_m = 0.004;  // what is finer than this is not followed by a hand
+constexpr int kBlurKnotsMax = 40;  // of one side of the blur
 constexpr int kMargin = kBlurKnotsMax + 3;
 constexpr double kNear_m = 0.1;  // how far a step may lie off the surface
 constexpr double kWalkStep_m = 0.004;
