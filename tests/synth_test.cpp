@@ -329,6 +329,19 @@ TEST_F(Synth, EveryPlaceOfTheDogTakesEveryStroke) {
   }
 }
 
+TEST_F(Synth, ThinPartsAreFollowedAtADepthTheyHave) {
+  const auto dog = find("dog");
+  if (!dog) GTEST_SKIP() << "no dog.glb";
+  SynthOptions options;
+  options.place = "ear";
+  options.depth_m = 0.004;
+  const Synthesised made = make(*dog, options);
+  for (std::size_t i = 0; i < made.frames.size(); ++i) {
+    if (!made.strokes(i)) continue;
+    EXPECT_NEAR(depth_of(dog->placed(), made.hand(i)), options.depth_m, 1.5e-3) << "frame " << i;
+  }
+}
+
 TEST_F(Synth, FollowsAnObjectThatIsMovedTurnedAndScaled) {
   Placement placement;
   placement.pose.position = Vec3(0.5, 1.0, -0.3);

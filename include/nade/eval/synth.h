@@ -31,8 +31,10 @@ struct SynthOptions {
   Stroke stroke = Stroke::line;
   std::string place;           ///< a place of the object; empty: "back", or the only one there is
   double speed_m_per_s = 0.1;  ///< the palm's mean speed while it strokes; above 0, up to 2
-  double depth_m = 0.02;       ///< of the palm's skin below the surface; 0 to 0.1
-  double tilt_rad = 0.0;       ///< about the place's X: above 0 raises the fingertips; up to 80 deg
+  /// Of the palm's skin below the surface; 0 to 0.1. Where the object is thinner, the skin comes
+  /// out behind it.
+  double depth_m = 0.02;
+  double tilt_rad = 0.0;  ///< about the place's X: above 0 raises the fingertips; up to 80 deg
   Handedness side = Handedness::right;
   double duration_s = 6.0;  ///< 0.5 to 86,400
   double rate_hz = 90.0;    ///< frames a second; 5 to 1,000
