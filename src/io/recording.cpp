@@ -50,7 +50,7 @@ Result<AnySource> recognised(ByteSource source) {
     return unknown_form(source.name(), "a frame in line 1, without the recording's header");
   }
   const Sketch::Member* frames = sketch.find("frames");
-  const std::string_view frames_begin = frames == nullptr ? "" : frames->begins;
+  const std::string frames_begin = frames == nullptr ? "" : frames->begins;
   if (sketch.find("schema") != nullptr) return opened<WebxrImport>(std::move(source));
   if (sketch.begins.starts_with("[{") || frames_begin.starts_with("[{") ||
       frames_begin.starts_with("[]")) {
@@ -115,7 +115,7 @@ struct RecordingWriter::Impl {
   std::optional<std::int64_t> last_time_ns;
 
   Status flush() {
-    const Status status = file.write({buffer.data(), buffer.size()});
+    Status status = file.write({buffer.data(), buffer.size()});
     buffer.clear();
     return status;
   }
