@@ -87,6 +87,11 @@ Result<Json> parse_json(std::string_view text) {
   }
 }
 
+std::string kind_of(const Json& value) {
+  if (value.is_null()) return "no finite number";
+  return fmt::format("{} {}", value.is_structured() ? "an" : "a", value.type_name());
+}
+
 std::string unknown_text(const Json& object) {
   if (!object.is_object() || object.empty()) return {};
   return object.dump();

@@ -17,6 +17,9 @@ using Json = nlohmann::json;
 /// prefixed with the file's name and the line ("column 41: expected valid JSON").
 [[nodiscard]] Result<Json> parse_json(std::string_view text);
 
+/// What a value is, with its article, for "expected …, found …".
+[[nodiscard]] std::string kind_of(const Json& value);
+
 /// The text of an object of unknown keys; empty for an empty one.
 [[nodiscard]] std::string unknown_text(const Json& object);
 

@@ -97,7 +97,7 @@ Result<std::optional<RecordedFrame>> LeapImport::next() {
     if (!*json) return std::optional<RecordedFrame>();
     if (!(*json)->is_object()) {
       return Error{ErrorCode::bad_value,
-                   fmt::format("{}: expected a frame, found a {}", place(), (*json)->type_name())};
+                   fmt::format("{}: expected a frame, found {}", place(), kind_of(**json))};
     }
     Result<RecordedFrame> frame = read_frame(**json);
     if (!frame) return frame.error();
@@ -122,8 +122,8 @@ Result<RecordedFrame> LeapImport::read_frame(const Json& frame) {
   const auto hands = frame.find("hands");
   if (hands == frame.end()) return result;
   if (!hands->is_array()) {
-    return Error{ErrorCode::bad_value, fmt::format("{}: hands: expected an array, found a {}",
-                                                   place(), hands->type_name())};
+    return Error{ErrorCode::bad_value,
+                 fmt::format("{}: hands: expected an array, found {}", place(), kind_of(*hands))};
   }
   for (std::size_t i = 0; i < hands->size(); ++i) {
     const Status status = read_hand(frame, i, result);

@@ -24,10 +24,6 @@ std::optional<Json> take(Json& object, const char* key) {
   return value;
 }
 
-std::string kind_of(const Json& value) {
-  return value.is_null() ? "no finite number" : fmt::format("a {}", value.type_name());
-}
-
 std::optional<std::int64_t> whole_number(const Json& value) {
   constexpr double kLargestExact = 9007199254740992.0;  // 2^53
   if (value.is_number_unsigned()) {

@@ -85,8 +85,8 @@ Result<WebxrImport> WebxrImport::open(ByteSource source) {
 Status WebxrImport::read_schema(const Json& schema) {
   has_schema_ = true;
   if (!schema.is_array()) {
-    return Error{ErrorCode::bad_format, fmt::format("{}: schema: expected an array, found a {}",
-                                                    frames_.name(), schema.type_name())};
+    return Error{ErrorCode::bad_format, fmt::format("{}: schema: expected an array, found {}",
+                                                    frames_.name(), kind_of(schema))};
   }
   for (std::size_t i = 0; i < schema.size(); ++i) {
     const std::string where = fmt::format("{}: schema[{}]", frames_.name(), i);

@@ -1,0 +1,491 @@
+#include "nade/io/recording.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <thread>
+
+#include "support/recording_files.h"
+
+namespace nade {
+namespace {
+
+using nlohmann::json;
+using test::contains;
+using test::read_whole;
+using test::WholeRecording;
+
+const std::string kHeader = R"({"format":"nade-recording","version":1,"source":"test"})";
+
+/// A hand of random size and turn, but usable.
+RecordedHand random_hand(Handedness side, std::mt19937& random) {
+  std::uniform_real_distribution<double> coordinate(-0.1, 0.1);
+  RecordedHand hand;
+  hand.pose.side = side;
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    Pose& joint = hand.pose.joints[i];
+    joint.position = {coordinate(random), 1.0 + coordinate(random), coordinate(random)};
+    joint.rotation =
+        Quat(coordinate(random), coordinate(random), coordinate(random), coordinate(random))
+            .normalized();
+    hand.pose.radius[i] = 0.01 + 0.05 * coordinate(random);
+  }
+  hand.pose.confidence = 0.5 + coordinate(random);
+  return hand;
+}
+
+void expect_same_bits(double a, double b) {
+  EXPECT_EQ(a, b);
+  EXPECT_EQ(std::signbit(a), std::signbit(b));
+}
+
+void expect_same_bits(const HandPose& a, const HandPose& b) {
+  EXPECT_EQ(a.side, b.side);
+  expect_same_bits(a.confidence, b.confidence);
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      expect_same_bits(a.joints[i].position[k], b.joints[i].position[k]);
+    }
+    for (Eigen::Index k = 0; k < 4; ++k) {
+      expect_same_bits(a.joints[i].rotation.coeffs()[k], b.joints[i].rotation.coeffs()[k]);
+    }
+    expect_same_bits(a.radius[i], b.radius[i]);
+  }
+}
+
+/// A frame line as JSON, to be spoilt.
+json frame_json(std::int64_t time_ns) {
+  json joints = json::array();
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    joints.push_back({0.01 * static_cast<double>(i), 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.01});
+  }
+  return {{"t", time_ns}, {"right", {{"joints", joints}, {"confidence", 0.9}}}};
+}
+
+class Recording : public test::RecordingFiles {
+ protected:
+  /// Reads the header, a good frame and then these lines.
+  [[nodiscard]] WholeRecording read_lines(const std::vector<std::string>& lines) const {
+    std::string text = kHeader + "\n" + frame_json(0).dump() + "\n";
+    for (const std::string& line : lines) text += line + "\n";
+    return read_whole(given("in.jsonl", text));
+  }
+  /// The error about a frame in line 3 without the file's name and the line.
+  [[nodiscard]] std::string error_of(const json& frame) const {
+    const WholeRecording whole = read_lines({frame.dump()});
+    const std::string prefix = path("in.jsonl") + ": line 3: ";
+    EXPECT_EQ(whole.error.rfind(prefix, 0), 0u) << whole.error;
+    EXPECT_EQ(whole.frames.size(), 1u);
+    return whole.error.size() > prefix.size() ? whole.error.substr(prefix.size()) : whole.error;
+  }
+  void write_random(const std::string& name, std::size_t frames) const {
+    std::mt19937 random(7);
+    Result<RecordingWriter> writer = RecordingWriter::create(path(name), {"test", "", true, ""});
+    ASSERT_TRUE(writer.ok()) << writer.error().message;
+    for (std::size_t i = 0; i < frames; ++i) {
+      RecordedFrame frame;
+      frame.time_ns = static_cast<std::int64_t>(i) * 33333333;
+      frame.hands[1] = random_hand(Handedness::right, random);
+      ASSERT_TRUE(writer->write(frame).ok());
+    }
+    ASSERT_TRUE(writer->finish().ok());
+  }
+};
+
+TEST_F(Recording, ComesBackBitEqual) {
+  for (const char* name : {"out.jsonl", "out.jsonl.gz"}) {
+    std::mt19937 random(1);
+    std::vector<RecordedFrame> frames(50);
+    Result<RecordingWriter> writer = RecordingWriter::create(
+        path(name), {"leap", "2026-11-21T02:40:00Z", true, R"({"method":"paper"})"});
+    ASSERT_TRUE(writer.ok());
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      RecordedFrame& frame = frames[i];
+      frame.time_ns = 1'700'000'000'000'000'001 + static_cast<std::int64_t>(i);
+      if (i % 3 != 0) frame.hands[0] = random_hand(Handedness::left, random);
+      if (i % 5 != 0) frame.hands[1] = random_hand(Handedness::right, random);
+      if (frame.hands[1]) {
+        frame.hands[1]->pose.joints[3].position.x() = -0.0;
+        frame.hands[1]->pose.joints[4].position.x() = 1e-300;
+        frame.hands[1]->pose.joints[5].position.x() = 0.1 + 0.2;
+      }
+      ASSERT_TRUE(writer->write(frame).ok());
+    }
+    ASSERT_TRUE(writer->finish().ok());
+
+    const WholeRecording whole = read_whole(path(name));
+    EXPECT_EQ(whole.error, "");
+    EXPECT_TRUE(whole.warnings.empty());
+    EXPECT_EQ(whole.header.source, "leap");
+    EXPECT_EQ(whole.header.created, "2026-11-21T02:40:00Z");
+    EXPECT_TRUE(whole.header.hand_scale_known);
+    EXPECT_EQ(json::parse(whole.header.unknown_json), json::parse(R"({"method":"paper"})"));
+    ASSERT_EQ(whole.frames.size(), frames.size());
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      EXPECT_EQ(whole.frames[i].time_ns, frames[i].time_ns);
+      for (std::size_t side = 0; side < 2; ++side) {
+        ASSERT_EQ(whole.frames[i].hands[side].has_value(), frames[i].hands[side].has_value());
+        if (!frames[i].hands[side]) continue;
+        expect_same_bits(whole.frames[i].hands[side]->pose, frames[i].hands[side]->pose);
+      }
+    }
+  }
+}
+
+TEST_F(Recording, StoredVersionOneStillLoads) {
+  const WholeRecording whole = read_whole(NADE_TEST_DATA_DIR "/recording_v1.jsonl");
+  EXPECT_EQ(whole.error, "");
+  EXPECT_TRUE(whole.warnings.empty());
+  EXPECT_EQ(whole.format, RecordingFormat::nade);
+  EXPECT_EQ(whole.header.source, "leap");
+  EXPECT_EQ(json::parse(whole.header.unknown_json)["object"]["name"], "plane");
+  ASSERT_EQ(whole.frames.size(), 4u);
+  EXPECT_EQ(whole.frames[1].time_ns, 11111111);
+  ASSERT_TRUE(whole.frames[1].hands[0] && whole.frames[1].hands[1]);
+  const RecordedHand& hand = *whole.frames[1].hands[1];
+  EXPECT_EQ(hand.status, HandStatus::corrected);
+  EXPECT_DOUBLE_EQ(hand.pose.confidence, 0.91);
+  EXPECT_DOUBLE_EQ(hand.pose[Joint::wrist].position.x(), 0.2);
+  EXPECT_DOUBLE_EQ(hand.pose.radius[index_of(Joint::wrist)], 0.021);
+  ASSERT_TRUE(hand.contact[index_of(Part::palm)].has_value());
+  EXPECT_DOUBLE_EQ(hand.contact[index_of(Part::palm)]->depth_m, 0.021);
+  EXPECT_DOUBLE_EQ(hand.contact[index_of(Part::index)]->point.z(), -0.177);
+  EXPECT_FALSE(hand.contact[index_of(Part::thumb)].has_value());
+  EXPECT_FALSE(whole.frames[2].hands[0] || whole.frames[2].hands[1]);
+  EXPECT_EQ(whole.frames[3].hands[1]->status, HandStatus::released);
+}
+
+TEST_F(Recording, NothingIsLostOnTheWayThrough) {
+  const std::string in = NADE_TEST_DATA_DIR "/recording_v1.jsonl";
+  const WholeRecording whole = read_whole(in);
+  Result<RecordingWriter> writer = RecordingWriter::create(path("out.jsonl"), whole.header);
+  ASSERT_TRUE(writer.ok());
+  for (const RecordedFrame& frame : whole.frames) ASSERT_TRUE(writer->write(frame).ok());
+  ASSERT_TRUE(writer->finish().ok());
+
+  std::ifstream before(in);
+  std::ifstream after(path("out.jsonl"));
+  std::string line_before;
+  std::string line_after;
+  std::size_t lines = 0;
+  while (std::getline(before, line_before)) {
+    ASSERT_TRUE(std::getline(after, line_after));
+    EXPECT_EQ(json::parse(line_before), json::parse(line_after)) << "line " << ++lines;
+  }
+  EXPECT_FALSE(std::getline(after, line_after));
+}
+
+TEST_F(Recording, GzipIsToldByContentNotName) {
+  write_random("a.jsonl.gz", 5);
+  std::filesystem::rename(path("a.jsonl.gz"), path("a.jsonl"));
+  EXPECT_EQ(read_whole(path("a.jsonl")).frames.size(), 5u);
+  write_random("b.jsonl", 5);
+  std::filesystem::rename(path("b.jsonl"), path("b.jsonl.gz"));
+  EXPECT_EQ(read_whole(path("b.jsonl.gz")).frames.size(), 5u);
+}
+
+TEST_F(Recording, ToleratesMarksBlankLinesAndLineEnds) {
+  const std::string text = "\xEF\xBB\xBF\n" + kHeader + "\r\n\r\n" + frame_json(1).dump() +
+                           "\r\n   \n" + frame_json(2).dump();
+  const WholeRecording whole = read_whole(given("in.jsonl", text));
+  EXPECT_EQ(whole.error, "");
+  EXPECT_TRUE(whole.warnings.empty());
+  EXPECT_EQ(whole.frames.size(), 2u);
+}
+
+TEST_F(Recording, CutOffPlainFileIsReadToItsLastWholeLine) {
+  write_random("in.jsonl", 10);
+  const std::string text = content_of(path("in.jsonl"));
+  const WholeRecording whole = read_whole(given("cut.jsonl", text.substr(0, text.size() - 30)));
+  EXPECT_EQ(whole.error, "");
+  EXPECT_EQ(whole.frames.size(), 9u);
+  EXPECT_TRUE(contains(whole.warning(), "cut.jsonl: line 11: cut off")) << whole.warning();
+}
+
+TEST_F(Recording, CutOffGzipIsReadAsFarAsItGoes) {
+  write_random("in.jsonl.gz", 200);
+  const std::string bytes = content_of(path("in.jsonl.gz"));
+  for (const std::size_t size : {bytes.size() / 2, bytes.size() - 1, bytes.size() - 8}) {
+    const WholeRecording whole = read_whole(given("cut.jsonl.gz", bytes.substr(0, size)));
+    EXPECT_EQ(whole.error, "");
+    EXPECT_GT(whole.frames.size(), size == bytes.size() / 2 ? 50u : 199u);
+    EXPECT_TRUE(contains(whole.warning(), "cut off")) << whole.warning();
+  }
+}
+
+TEST_F(Recording, DamagedGzipIsAnError) {
+  write_random("in.jsonl.gz", 200);
+  std::string bytes = content_of(path("in.jsonl.gz"));
+  bytes[bytes.size() - 6] = static_cast<char>(~bytes[bytes.size() - 6]);  // its check sum
+  const WholeRecording whole = read_whole(given("bad.jsonl.gz", bytes));
+  EXPECT_TRUE(contains(whole.error, "bad.jsonl.gz: expected whole gzip data")) << whole.error;
+}
+
+TEST_F(Recording, WhatIsNoRecordingIsNamed) {
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"", "found nothing"},
+      {"\n \n", "found nothing"},
+      {"once upon a time\n", "found none of them"},
+      {"{\"a\":1}\n", "found an object that begins with \"a\""},
+      {frame_json(0).dump() + "\n", "a frame in line 1, without the recording's header"},
+      {"{\"format\":\"other\",\"version\":1}\n", "line 1: expected the format \"nade-recording\""},
+      {"{\"format\":\"nade-recording\",\"version\":2}\n", "line 1: expected version 1 of"},
+      {"{\"format\":\"nade-recording\"}\n", "found none"},
+      {"{\"format\":\"nade-recording\",\"ver", "line 1: expected a recording's header"},
+      {"{\"format\":\"nade-recording\",\"version\":1,\"source\":3}\n", "line 1: source: expected"},
+      {R"({"frames":[["packed"],[1]]})", "packed"},
+      {R"({"frames":[[0,1,2]],"schema":[]})", "expected \"schema\" before \"frames\""},
+  };
+  for (const auto& [text, part] : cases) {
+    const WholeRecording whole = read_whole(given("in.jsonl", text));
+    EXPECT_TRUE(contains(whole.error, path("in.jsonl"))) << whole.error;
+    EXPECT_TRUE(contains(whole.error, part)) << whole.error << " for " << text;
+    EXPECT_EQ(whole.error.find('\n'), std::string::npos);
+  }
+  EXPECT_TRUE(contains(read_whole(path("none.jsonl")).error, "no such file"));
+  EXPECT_TRUE(contains(read_whole(path(".")).error, "directory"));
+}
+
+TEST_F(Recording, WrongLinesAreErrorsThatNameThem) {
+  json frame = frame_json(0);
+  EXPECT_EQ(error_of(frame), "t: expected a time after 0, found 0");
+  frame["t"] = -5;
+  EXPECT_EQ(error_of(frame), "t: expected a time after 0, found -5");
+  frame["t"] = "now";
+  EXPECT_EQ(error_of(frame), "t: expected a time in whole nanoseconds, found \"now\"");
+  frame["t"] = 1.5;
+  EXPECT_EQ(error_of(frame), "t: expected a time in whole nanoseconds, found 1.5");
+  EXPECT_EQ(error_of({{"right", 1}}), "t: expected a time in whole nanoseconds, found none");
+  frame = frame_json(5);
+  frame["right"] = 7;
+  EXPECT_EQ(error_of(frame), "right: expected a hand, found a number");
+  frame = frame_json(5);
+  frame["right"].erase("joints");
+  EXPECT_EQ(error_of(frame), "right: joints: expected 26 joints, found none");
+  frame = frame_json(5);
+  frame["right"]["joints"].erase(3);
+  EXPECT_EQ(error_of(frame), "right: joints: expected 26 joints, found 25");
+  frame = frame_json(5);
+  frame["right"]["joints"][4].erase(0);
+  EXPECT_EQ(error_of(frame), "right: joint 4: expected 8 numbers, found 7");
+  frame = frame_json(5);
+  frame["right"]["joints"][4][2] = "x";
+  EXPECT_EQ(error_of(frame), "right: joint 4: expected 8 numbers, found a string among them");
+  frame["right"]["joints"][4] = nullptr;
+  EXPECT_EQ(error_of(frame), "right: joint 4: expected 8 numbers, found no finite number");
+  frame = frame_json(5);
+  frame["right"]["joints"][4][2] = 1e7;
+  EXPECT_TRUE(contains(error_of(frame), "right: joint 4: expected numbers up to 1000000"));
+  frame = frame_json(5);
+  frame["right"]["joints"][4][7] = -0.01;
+  EXPECT_TRUE(contains(error_of(frame), "right: joint 4: expected a radius of 0 or more"));
+  frame = frame_json(5);
+  frame["right"]["confidence"] = 1.5;
+  EXPECT_EQ(error_of(frame), "right: confidence: expected a number from 0 to 1, found 1.5");
+  frame = frame_json(5);
+  frame["right"]["status"] = "asleep";
+  EXPECT_TRUE(contains(error_of(frame), "right: status: expected free or corrected or"));
+  frame = frame_json(5);
+  frame["right"]["contact"] = {{"palm", {{"point", {1, 2}}}}};
+  EXPECT_TRUE(contains(error_of(frame), "right: contact: palm: expected a point and a normal"));
+}
+
+TEST_F(Recording, WrongJsonIsAnErrorThatNamesItsColumn) {
+  for (const char* line :
+       {"{\"t\":5,}", "nonsense", "{\"t\":5", "{\"t\":5}}", "{\"t\":5,\"a\":\"\xff\"}"}) {
+    const WholeRecording whole = read_lines({line, frame_json(9).dump()});
+    EXPECT_TRUE(contains(whole.error, "in.jsonl: line 3: column")) << whole.error;
+    EXPECT_TRUE(contains(whole.error, "expected valid JSON")) << whole.error;
+  }
+  EXPECT_TRUE(contains(read_lines({"[1]"}).error, "line 3: expected a frame, found an array"));
+  const std::string deep =
+      "{\"t\":5,\"a\":" + std::string(100000, '[') + std::string(100000, ']') + "}";
+  EXPECT_TRUE(contains(read_lines({deep}).error, "nested at most")) << read_lines({deep}).error;
+}
+
+TEST_F(Recording, HandThatIsNotFiniteIsLeftOut) {
+  for (const char* number : {"null", "NaN", "-Infinity", "1e999", "-1e999"}) {
+    std::string line = frame_json(5).dump();
+    line.replace(line.find("[[0.0"), 5, std::string("[[") + number);
+    const WholeRecording whole = read_lines({line, frame_json(6).dump()});
+    EXPECT_EQ(whole.error, "") << number;
+    ASSERT_EQ(whole.frames.size(), 3u);
+    EXPECT_FALSE(whole.frames[1].hands[1].has_value());
+    EXPECT_TRUE(whole.frames[2].hands[1].has_value());
+    EXPECT_TRUE(contains(whole.warning(), "line 3: right: ")) << whole.warning();
+    EXPECT_TRUE(contains(whole.warning(), "left out")) << whole.warning();
+  }
+}
+
+TEST_F(Recording, UnusableHandsAreCounted) {
+  json far = frame_json(5);
+  far["right"]["joints"][9][0] = 3.0;
+  json unturned = frame_json(6);
+  for (std::size_t k = 3; k < 7; ++k) unturned["right"]["joints"][9][k] = 0.0;
+  const WholeRecording whole = read_lines({far.dump(), unturned.dump()});
+  EXPECT_EQ(whole.error, "");
+  ASSERT_EQ(whole.frames.size(), 3u);
+  EXPECT_FALSE(whole.frames[1].hands[1] || whole.frames[2].hands[1]);
+  EXPECT_TRUE(contains(whole.warning(), "line 3")) << whole.warning();
+  EXPECT_TRUE(contains(whole.warning(), "and 1 more")) << whole.warning();
+}
+
+TEST_F(Recording, QuaternionsAreMadeUnit) {
+  json frame = frame_json(5);
+  frame["right"]["joints"][9][6] = 1.2;
+  const WholeRecording whole = read_lines({frame.dump()});
+  EXPECT_EQ(whole.error, "");
+  ASSERT_TRUE(whole.frames[1].hands[1].has_value());
+  EXPECT_NEAR(whole.frames[1].hands[1]->pose.joints[9].rotation.norm(), 1.0, 1e-12);
+  EXPECT_TRUE(contains(whole.warning(), "joint 9: the quaternion")) << whole.warning();
+}
+
+TEST_F(Recording, ZeroLengthBonesAreRead) {
+  json frame = frame_json(5);
+  for (json& joint : frame["right"]["joints"]) joint = frame["right"]["joints"][0];
+  const WholeRecording whole = read_lines({frame.dump()});
+  EXPECT_EQ(whole.error, "");
+  EXPECT_TRUE(whole.frames[1].hands[1].has_value());
+}
+
+TEST_F(Recording, LineWithoutEndIsRefused) {
+  const std::string text =
+      kHeader + "\n{\"t\":0,\"a\":\"" + std::string(std::size_t{17} << 20, 'x') + "\"}\n";
+  EXPECT_TRUE(contains(read_whole(given("in.jsonl", text)).error,
+                       "line 2: expected at most 16 MiB in a line"));
+}
+
+TEST_F(Recording, AppearsOnlyWhenFinished) {
+  static_cast<void>(given("out.jsonl", "precious"));
+  {
+    Result<RecordingWriter> writer = RecordingWriter::create(path("out.jsonl"), {});
+    ASSERT_TRUE(writer.ok());
+    EXPECT_TRUE(writer->write({}).ok());
+    EXPECT_EQ(content_of(path("out.jsonl")), "precious");
+  }
+  EXPECT_EQ(content_of(path("out.jsonl")), "precious");
+  EXPECT_EQ(files(), std::vector<std::string>{"out.jsonl"});
+  write_random("out.jsonl", 2);
+  EXPECT_EQ(read_whole(path("out.jsonl")).frames.size(), 2u);
+  EXPECT_EQ(files(), std::vector<std::string>{"out.jsonl"});
+}
+
+TEST_F(Recording, PermissionsFollowTheMask) {
+  const mode_t before = ::umask(027);
+  write_random("out.jsonl", 1);
+  ::umask(before);
+  struct stat info {};
+  ASSERT_EQ(::stat(path("out.jsonl").c_str(), &info), 0);
+  EXPECT_EQ(info.st_mode & 0777U, 0640U);
+}
+
+TEST_F(Recording, LinkIsWrittenThrough) {
+  static_cast<void>(given("target.jsonl", "old"));
+  std::filesystem::create_symlink("target.jsonl", path("link.jsonl"));
+  write_random("link.jsonl", 3);
+  EXPECT_TRUE(std::filesystem::is_symlink(path("link.jsonl")));
+  EXPECT_EQ(read_whole(path("target.jsonl")).frames.size(), 3u);
+}
+
+TEST_F(Recording, FullDiskIsReported) {
+  std::mt19937 random(3);
+  Result<RecordingWriter> writer = RecordingWriter::create("/dev/full", {});
+  std::string message = writer ? "" : writer.error().message;
+  for (int i = 0; message.empty() && i < 100; ++i) {
+    RecordedFrame frame;
+    frame.time_ns = i;
+    frame.hands[0] = random_hand(Handedness::left, random);
+    const Status status = writer->write(frame);
+    if (!status.ok()) message = status.error().message;
+  }
+  EXPECT_TRUE(contains(message, "/dev/full: expected to write the output, but: No space left"))
+      << message;
+
+  Result<RecordingWriter> small = RecordingWriter::create("/dev/full", {});
+  ASSERT_TRUE(small.ok());  // still in the buffer
+  const Status finished = small->finish();
+  ASSERT_FALSE(finished.ok());
+  EXPECT_TRUE(contains(finished.error().message, "No space left"));
+}
+
+TEST_F(Recording, UnwritablePlacesAreNamed) {
+  for (const std::string& place : {path("none/out.jsonl"), path("."), std::string()}) {
+    const Result<RecordingWriter> writer = RecordingWriter::create(place, {});
+    ASSERT_FALSE(writer.ok()) << place;
+    EXPECT_EQ(writer.error().code, ErrorCode::unwritable);
+    EXPECT_TRUE(contains(writer.error().message, place));
+  }
+}
+
+TEST_F(Recording, DevicesAndPipesAreWrittenDirectly) {
+  Result<RecordingWriter> null = RecordingWriter::create("/dev/null", {});
+  ASSERT_TRUE(null.ok());
+  EXPECT_TRUE(null->finish().ok());
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+
+  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+  std::thread writer([&] { write_random("pipe", 30); });
+  const WholeRecording whole = read_whole(path("pipe"));
+  writer.join();
+  EXPECT_EQ(whole.error, "");
+  EXPECT_EQ(whole.frames.size(), 30u);
+}
+
+TEST_F(Recording, WriterRefusesWhatItsReaderWould) {
+  std::mt19937 random(5);
+  Result<RecordingWriter> writer = RecordingWriter::create(path("out.jsonl"), {});
+  ASSERT_TRUE(writer.ok());
+  RecordedFrame frame;
+  frame.time_ns = 10;
+  frame.hands[1] = random_hand(Handedness::right, random);
+  ASSERT_TRUE(writer->write(frame).ok());
+  EXPECT_FALSE(writer->write(frame).ok());
+  frame.time_ns = 20;
+  frame.hands[1]->pose.joints[2].position.y() = std::nan("");
+  const Status status = writer->write(frame);
+  ASSERT_FALSE(status.ok());
+  EXPECT_TRUE(contains(status.error().message, "right: expected finite numbers"));
+  frame.hands[1] = random_hand(Handedness::right, random);
+  EXPECT_TRUE(writer->write(frame).ok());
+  ASSERT_TRUE(writer->finish().ok());
+  EXPECT_EQ(read_whole(path("out.jsonl")).frames.size(), 2u);
+}
+
+#if !defined(__SANITIZE_ADDRESS__)
+TEST_F(Recording, TenMinutesNeedNoMoreMemoryThanOne) {
+  const auto peak_kib = [] {
+    struct rusage usage {};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;
+  };
+  const auto pass_through = [&](std::size_t frames) {
+    write_random("in.jsonl", frames);
+    Result<RecordingReader> reader = RecordingReader::open(path("in.jsonl"));
+    ASSERT_TRUE(reader.ok());
+    Result<RecordingWriter> writer = RecordingWriter::create(path("out.jsonl"), reader->header());
+    ASSERT_TRUE(writer.ok());
+    std::size_t count = 0;
+    while (true) {
+      const auto frame = reader->next();
+      ASSERT_TRUE(frame.ok());
+      if (!*frame) break;
+      ASSERT_TRUE(writer->write(**frame).ok());
+      ++count;
+    }
+    ASSERT_TRUE(writer->finish().ok());
+    EXPECT_EQ(count, frames);
+  };
+  constexpr std::size_t kFramesInMinute = 30 * 60;
+  pass_through(kFramesInMinute);
+  const auto after_one = peak_kib();
+  pass_through(10 * kFramesInMinute);
+  EXPECT_LT(peak_kib() - after_one, 4096);
+}
+#endif
+
+}  // namespace
+}  // namespace nade

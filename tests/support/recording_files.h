@@ -1,0 +1,90 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "nade/io/recording.h"
+
+namespace nade::test {
+
+/// Tests that write files, each in an empty folder of its own.
+class RecordingFiles : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = testing::TempDir() + "nade_recording_XXXXXX";
+    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
+    folder_ = pattern;
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] std::string path(const std::string& name) const {
+    return (folder_ / name).string();
+  }
+
+  [[nodiscard]] std::string given(const std::string& name, const std::string& content) const {
+    std::ofstream(path(name), std::ios::binary) << content;
+    return path(name);
+  }
+  [[nodiscard]] static std::string content_of(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  [[nodiscard]] std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+      names.push_back(entry.path().filename().string());
+    }
+    return names;
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+/// All of a recording, and how reading it ended.
+struct WholeRecording {
+  RecordingFormat format = RecordingFormat::nade;
+  RecordingHeader header;
+  std::vector<RecordedFrame> frames;
+  std::vector<std::string> warnings;
+  std::string error;  ///< empty where there was none
+
+  [[nodiscard]] std::string warning() const {
+    return warnings.size() == 1 ? warnings[0] : std::to_string(warnings.size()) + " warnings";
+  }
+};
+
+inline WholeRecording read_whole(const std::string& path) {
+  WholeRecording whole;
+  Result<RecordingReader> reader = RecordingReader::open(path);
+  if (!reader) {
+    whole.error = reader.error().message;
+    return whole;
+  }
+  whole.format = reader->format();
+  whole.header = reader->header();
+  while (true) {
+    Result<std::optional<RecordedFrame>> frame = reader->next();
+    if (!frame) {
+      whole.error = frame.error().message;
+      break;
+    }
+    if (!*frame) break;
+    whole.frames.push_back(**frame);
+  }
+  whole.warnings = reader->warnings();
+  return whole;
+}
+
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace nade::test
