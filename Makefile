@@ -5,7 +5,7 @@
 .PHONY: help demo test build bench asan tidy format format-check install clean setup
 
 PREFIX ?= /usr/local
-sources = $(shell find apps assets bench examples include src tests -name '*.h' -o -name '*.cpp')
+sources = $(shell find apps assets bench examples include src tests tools -name '*.h' -o -name '*.cpp')
 
 help: ## List these targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 14
