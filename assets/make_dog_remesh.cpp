@@ -12,8 +12,8 @@
 namespace dog {
 namespace {
 
-constexpr int kSizingPasses = 8;
-constexpr int kSmoothingPasses = 8;
+constexpr int kSizingPasses = 6;
+constexpr int kSmoothingPasses = 6;
 constexpr double kTooLong = 4.0 / 3.0;
 constexpr double kTooShort = 4.0 / 5.0;
 
