@@ -11,8 +11,7 @@ namespace {
 
 using DirectedEdges = std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t>;
 
-/// Whether the triangles around each vertex form one ring; `next_around` leads from one to the
-/// next.
+/// Whether the triangles around each vertex form one ring.
 bool one_ring_each(const Mesh& mesh, const DirectedEdges& edges) {
   std::vector<std::uint32_t> incident(mesh.points.size(), 0);
   std::vector<std::uint32_t> any(mesh.points.size(), 0);

@@ -1,8 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <stdexcept>
 #include <unordered_map>
+#include <utility>
 
 #include "make_dog_mesh.h"
 

@@ -27,8 +27,7 @@ struct Quality {
 };
 
 /// The surface of the body as a closed mesh of badly shaped triangles: marching tetrahedra on a
-/// lattice of this spacing, which always give a manifold. Throws std::runtime_error where the body
-/// reaches out of the lattice.
+/// lattice of this spacing, which always give a manifold.
 [[nodiscard]] Mesh extract_surface(const Body& body, double spacing);
 
 /// Even triangles with edges of the length the body asks for, every vertex on its surface, the

@@ -141,7 +141,7 @@ TEST_F(Dog, FacesOutward) {
     const auto [a, b, c] = corners(t);
     volume += a.dot(b.cross(c)) / 6.0;
   }
-  EXPECT_GT(volume, 0.008);  // litres: 8 to 25
+  EXPECT_GT(volume, 0.008);  // cubic metres
   EXPECT_LT(volume, 0.025);
 
   std::map<std::pair<std::uint32_t, std::uint32_t>, Vec3> normals;
