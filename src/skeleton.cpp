@@ -149,6 +149,15 @@ DigitAxes chain_axes(const DigitChain& chain, const DigitAngles& angles) noexcep
   return axes;
 }
 
+DigitAngles turned_whole(const DigitChain& chain, const Quat& turn_world) noexcept {
+  const double sign = side_sign(chain.side);
+  const Quat& parent = chain.parent_rotation;
+  DigitAngles angles = chain.angles;
+  angles[0] = angles_of(
+      parent.conjugate() * (turn_world * (parent * rotation_of(chain.angles[0], sign))), sign);
+  return angles;
+}
+
 DigitFreedoms freedoms_of(const DigitAngles& angles) noexcept {
   return {angles[0].abduction, angles[0].flexion, angles[1].flexion, angles[2].flexion};
 }

@@ -81,6 +81,9 @@ struct DigitAxes {
 };
 [[nodiscard]] DigitAxes chain_axes(const DigitChain& chain, const DigitAngles& angles) noexcept;
 
+/// The chain's angles with the digit turned as a whole about its base by a world rotation.
+[[nodiscard]] DigitAngles turned_whole(const DigitChain& chain, const Quat& turn_world) noexcept;
+
 /// The four movable angles of a digit, and the digit with them changed.
 [[nodiscard]] DigitFreedoms freedoms_of(const DigitAngles& angles) noexcept;
 [[nodiscard]] DigitAngles with_freedoms(const DigitAngles& angles,

@@ -1,0 +1,314 @@
+#include "nade/corrector.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+#include "support/sample_hand.h"
+
+namespace nade {
+namespace {
+
+using test::rad;
+
+constexpr std::int64_t kFrame_ns = 11'111'111;
+
+const PlaneSurface kPlane;
+const SphereSurface kSphere(0.15);
+
+Object plane() { return Object(kPlane); }
+/// Its top at y = 0.
+Object sphere() { return Object(kSphere, {{{0.0, -0.15, 0.0}, Quat::Identity()}, 1.0}); }
+
+double palm_skin() { return generic_skin_depths()[Part::palm]; }
+
+/// Skin depths belong to the generic hand's size: the sample hand made just that size.
+HandPose generic_size_hand(Handedness side = Handedness::right,
+                           const HandAngles& angles = test::relaxed_angles()) {
+  HandPose hand = test::sample_hand(side, angles);
+  const double scale = kGenericHandLength / hand_length(hand);
+  for (Pose& joint : hand.joints) joint.position *= scale;
+  return hand;
+}
+
+/// Palm skin `depth_m` below y = 0, tilted about the hand's lateral axis.
+HandPose pressed_hand(double depth_m, double tilt_rad = 0.0, const Vec3& along = Vec3::Zero()) {
+  const Quat tilt(Eigen::AngleAxisd(tilt_rad, Vec3::UnitX()));
+  const Vec3 palm = tilt * Vec3(0.0, palm_skin(), 0.0) - Vec3(0.0, depth_m, 0.0) + along;
+  return test::placed_hand(generic_size_hand(), palm, tilt);
+}
+
+bool same_bits(const HandPose& a, const HandPose& b) {
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    if (a.joints[i].position != b.joints[i].position) return false;
+    if (a.joints[i].rotation.coeffs() != b.joints[i].rotation.coeffs()) return false;
+    if (a.radius[i] != b.radius[i]) return false;
+  }
+  return true;
+}
+
+double largest_difference(const HandPose& a, const HandPose& b) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    largest = std::max(largest, (a.joints[i].position - b.joints[i].position).norm());
+  }
+  return largest;
+}
+
+bool all_finite(const HandPose& hand) {
+  for (const Pose& joint : hand.joints) {
+    if (!joint.position.allFinite() || !joint.rotation.coeffs().allFinite()) return false;
+  }
+  return true;
+}
+
+double signed_distance(const Object& object, const Vec3& point) {
+  SurfaceHint hint;
+  return object.closest_point(point, std::numeric_limits<double>::infinity(), hint)
+      ->signed_distance;
+}
+
+TEST(Corrector, AnUntouchedHandComesBackBitEqual) {
+  HandCorrector corrector;
+  for (int i = 0; i < 10; ++i) {
+    const HandPose hand = pressed_hand(-0.3, 0.1, {0.01 * i, 0.0, 0.0});
+    const CorrectedHand& result = corrector.update(hand, sphere(), i * kFrame_ns);
+    EXPECT_EQ(result.status, HandStatus::free);
+    EXPECT_TRUE(same_bits(result.pose, hand));
+  }
+}
+
+TEST(Corrector, MethodNonePassesTheHandThrough) {
+  CorrectorOptions options;
+  options.method = Method::none;
+  HandCorrector corrector(options);
+  const HandPose hand = pressed_hand(0.03);
+  EXPECT_TRUE(same_bits(corrector.update(hand, plane(), 0).pose, hand));
+}
+
+TEST(Corrector, PressedSkinLiesOnTheSurface) {
+  for (const Object& object : {plane(), sphere()}) {
+    for (double tilt : {0.0, rad(10.0), rad(-10.0)}) {
+      for (double depth_m = 0.016; depth_m < 0.040; depth_m += 0.004) {
+        HandCorrector corrector;
+        const CorrectedHand& result = corrector.update(pressed_hand(depth_m, tilt), object, 0);
+        ASSERT_TRUE(result.contacts[0].has_value());
+        const Vec3 skin = result.pose[Joint::palm].position - palm_skin() * result.pose.back();
+        EXPECT_LT(std::abs(signed_distance(object, skin)), 1e-4);
+        for (std::size_t i = 1; i < kPartCount; ++i) {
+          const auto& contact = result.contacts[i];
+          if (!contact || contact->turn < 1.0) continue;
+          const Vec3 tip = result.pose[joint_of(part_at(i))].position;
+          const DigitChain chain = measure_chain(result.pose, digit_at(i - 1));
+          const bool reachable = (contact->target - chain.base).norm() < 0.99 * chain.length();
+          if (!reachable || i == index_of(Part::thumb)) continue;
+          EXPECT_NEAR(signed_distance(object, tip), contact->skin_depth_m, 1e-4)
+              << name_of(part_at(i)) << " at depth " << depth_m << " tilt " << tilt;
+        }
+      }
+    }
+  }
+}
+
+TEST(Corrector, ThumbSkinLiesOnThePlaneWhereItCanReach) {
+  HandCorrector corrector;
+  const CorrectedHand& result = corrector.update(pressed_hand(0.02), plane(), 0);
+  const auto& contact = result.contacts[index_of(Part::thumb)];
+  ASSERT_TRUE(contact.has_value());
+  EXPECT_NEAR(result.pose[Joint::thumb_tip].position.y(), contact->skin_depth_m, 1e-4);
+}
+
+TEST(Corrector, TheCorrectionStartsFromNothingAtFirstTouch) {
+  for (const Object& object : {plane(), sphere()}) {
+    for (double tilt : {0.0, rad(15.0), rad(-15.0)}) {
+      HandCorrector corrector;
+      bool touched = false;
+      for (int i = 0; i < 4000 && !touched; ++i) {
+        const HandPose hand = pressed_hand(-0.1 + i * 5e-5, tilt);
+        const CorrectedHand& result = corrector.update(hand, object, i * kFrame_ns);
+        touched = result.status == HandStatus::corrected;
+        if (touched) {
+          EXPECT_LT(largest_difference(result.pose, hand), 1e-4);
+        }
+      }
+      EXPECT_TRUE(touched);
+    }
+  }
+}
+
+TEST(Corrector, TheCorrectionIsContinuousInDepth) {
+  CorrectorOptions options;
+  options.release_s = 0.0;
+  constexpr double kStep_m = 2e-5;
+  for (double tilt : {0.0, rad(15.0)}) {
+    HandCorrector corrector(options);
+    HandPose before = pressed_hand(-0.06, tilt);
+    for (int i = 0; i < 4500; ++i) {
+      const HandPose hand = pressed_hand(-0.06 + i * kStep_m, tilt);
+      const CorrectedHand& result = corrector.update(hand, plane(), i * kFrame_ns);
+      ASSERT_LT(largest_difference(result.pose, before), 30.0 * kStep_m)
+          << "depth " << -0.06 + i * kStep_m;
+      before = result.pose;
+    }
+  }
+}
+
+TEST(Corrector, PaperLiteralJumpsOnEntryAsThePaperPrintsIt) {
+  HandCorrector corrector(paper_literal());
+  double largest_m = 0.0;
+  HandPose before = pressed_hand(-0.06);
+  for (int i = 0; i < 900; ++i) {
+    const CorrectedHand& result =
+        corrector.update(pressed_hand(-0.06 + i * 1e-4), plane(), i * kFrame_ns);
+    largest_m = std::max(largest_m, largest_difference(result.pose, before));
+    before = result.pose;
+  }
+  EXPECT_GT(largest_m, 0.004);
+}
+
+TEST(Corrector, MovedTogetherHandAndObjectGiveTheSameAnswer) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 50; ++i) {
+    const Pose motion{Vec3(normal(random), normal(random), normal(random)),
+                      Quat(Eigen::AngleAxisd(
+                          normal(random), Vec3(normal(random), normal(random), 1.0).normalized()))};
+    const Object object(kSphere, {motion * sphere().placement().pose, 1.0});
+    HandCorrector here;
+    HandCorrector there;
+    for (int frame = 0; frame < 5; ++frame) {
+      const HandPose hand = pressed_hand(0.004 * frame, rad(12.0), {0.005 * frame, 0.0, 0.0});
+      const HandPose expected = moved(here.update(hand, sphere(), frame * kFrame_ns).pose, motion);
+      const HandPose found = there.update(moved(hand, motion), object, frame * kFrame_ns).pose;
+      EXPECT_LT(largest_difference(found, expected), 1e-5);
+    }
+  }
+}
+
+TEST(Corrector, LeftAndRightAreMirrored) {
+  for (double depth_m : {0.005, 0.02, 0.035}) {
+    HandCorrector left;
+    HandCorrector right;
+    const HandPose hand = pressed_hand(depth_m, rad(8.0), {0.02, 0.0, 0.0});
+    const HandPose expected = mirrored(right.update(hand, sphere(), 0).pose);
+    EXPECT_LT(largest_difference(left.update(mirrored(hand), sphere(), 0).pose, expected), 1e-6);
+  }
+}
+
+TEST(Corrector, ALargerHandHasThickerSkin) {
+  for (double scale : {0.8, 1.25}) {
+    HandPose hand = generic_size_hand();
+    for (Pose& joint : hand.joints) joint.position *= scale;
+    hand = test::placed_hand(hand, {0.0, scale * palm_skin() - 0.02, 0.0});
+    HandCorrector corrector;
+    const CorrectedHand& result = corrector.update(hand, plane(), 0);
+    EXPECT_NEAR(result.pose[Joint::palm].position.y(), scale * palm_skin(), 1e-6);
+  }
+}
+
+TEST(Corrector, BelievableRadiiAreUsedAndOthersAreNot) {
+  HandPose hand = pressed_hand(0.03);
+  EXPECT_FALSE(believable_radii(hand).has_value());
+  hand.radius.fill(0.01);
+  EXPECT_FALSE(believable_radii(hand).has_value());
+  hand.radius[index_of(Joint::wrist)] = 0.02;
+  hand.radius[index_of(Joint::index_tip)] = 0.0055;
+  ASSERT_TRUE(believable_radii(hand).has_value());
+  HandCorrector corrector;
+  const CorrectedHand& result = corrector.update(hand, plane(), 0);
+  EXPECT_NEAR(result.pose[Joint::index_tip].position.y(), 0.0055, 1e-5);
+  EXPECT_NEAR(result.pose[Joint::palm].position.y(), palm_skin(), 1e-6);
+}
+
+TEST(Corrector, WhatIsLeftAtAnEdgeIsReleasedAndNotDropped) {
+  // The object vanishes under the pressed hand: the plainest edge there is.
+  HandCorrector corrector;
+  const Object gone(kPlane, {{{0.0, -5.0, 0.0}, Quat::Identity()}, 1.0});
+  const HandPose hand = pressed_hand(0.03);
+  HandPose before = corrector.update(hand, plane(), 0).pose;
+  std::int64_t time_ns = 0;
+  double largest_m = 0.0;
+  HandStatus status = HandStatus::corrected;
+  while (status != HandStatus::free && time_ns < 1'000'000'000) {
+    time_ns += kFrame_ns;
+    const CorrectedHand& result = corrector.update(hand, gone, time_ns);
+    status = result.status;
+    largest_m = std::max(largest_m, largest_difference(result.pose, before));
+    before = result.pose;
+  }
+  EXPECT_LT(largest_m, 0.008);
+  EXPECT_GE(time_ns, 150'000'000);
+  EXPECT_LE(time_ns, 300'000'000);
+  EXPECT_TRUE(same_bits(before, hand));
+}
+
+TEST(Corrector, APoseThatCannotBeUsedComesBackAsItIs) {
+  HandCorrector corrector;
+  (void)corrector.update(pressed_hand(0.02), plane(), 0);
+  HandPose broken = pressed_hand(0.02);
+  broken[Joint::ring_distal].position.x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(corrector.update(broken, plane(), kFrame_ns).status, HandStatus::untracked);
+  EXPECT_EQ(corrector.update(pressed_hand(0.02), plane(), 2 * kFrame_ns).status,
+            HandStatus::corrected);
+}
+
+TEST(Corrector, TimeThatGoesBackStartsAnew) {
+  HandCorrector corrector;
+  (void)corrector.update(pressed_hand(0.03), plane(), 1'000'000'000);
+  const HandPose hand = pressed_hand(-0.2);
+  const CorrectedHand& result = corrector.update(hand, plane(), 0);
+  EXPECT_EQ(result.status, HandStatus::free);
+  EXPECT_TRUE(same_bits(result.pose, hand));
+}
+
+TEST(Corrector, DegenerateHandsGiveFinitePoses) {
+  HandPose point = pressed_hand(0.02);
+  for (Pose& joint : point.joints) joint.position = Vec3(0.0, -0.01, 0.0);
+  HandPose folded = pressed_hand(0.02);
+  for (std::size_t d = 0; d < kDigitCount; ++d) {
+    folded[joints_of(digit_at(d)).tip] = folded[hinge_joint(digit_at(d), 0)];
+  }
+  HandPose away = test::placed_hand(generic_size_hand(), {0.0, -3.0, 0.0});
+  for (const HandPose& hand : {point, folded, away}) {
+    HandCorrector corrector;
+    EXPECT_TRUE(all_finite(corrector.update(hand, plane(), 0).pose));
+    EXPECT_TRUE(all_finite(corrector.update(hand, sphere(), kFrame_ns).pose));
+  }
+}
+
+TEST(Corrector, EveryRunGivesTheSameBits) {
+  const auto run = [] {
+    HandCorrector corrector;
+    HandPose last;
+    for (int i = 0; i < 60; ++i) {
+      const HandPose hand = pressed_hand(0.001 * i - 0.01, rad(10.0), {0.001 * i, 0.0, 0.0});
+      last = corrector.update(hand, sphere(), i * kFrame_ns).pose;
+    }
+    return last;
+  };
+  EXPECT_TRUE(same_bits(run(), run()));
+}
+
+TEST(Corrector, NoJointLeavesItsRangeOfMotion) {
+  for (double tilt : {rad(-20.0), 0.0, rad(20.0)}) {
+    HandCorrector corrector;
+    for (int i = 0; i < 100; ++i) {
+      const HandPose hand = pressed_hand(0.0008 * i - 0.02, tilt);
+      const HandAngles tracked = measure_angles(hand);
+      const HandAngles drawn = measure_angles(corrector.update(hand, sphere(), i * kFrame_ns).pose);
+      for (std::size_t d = 0; d < kDigitCount; ++d) {
+        for (std::size_t k = 0; k < kHingeCount; ++k) {
+          const HingeRange range = range_of_motion(digit_at(d), k);
+          const double low = std::min(range.flexion_min, tracked[d][k].flexion);
+          const double high = std::max(range.flexion_max, tracked[d][k].flexion);
+          EXPECT_GE(drawn[d][k].flexion, low - 1e-6);
+          EXPECT_LE(drawn[d][k].flexion, high + 1e-6);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace nade

@@ -1,0 +1,75 @@
+#include "nade/hand.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "support/sample_hand.h"
+
+namespace nade {
+namespace {
+
+TEST(Hand, JointsFollowTheOpenXrOrder) {
+  EXPECT_EQ(index_of(Joint::palm), 0u);
+  EXPECT_EQ(index_of(Joint::wrist), 1u);
+  EXPECT_EQ(index_of(Joint::thumb_tip), 5u);
+  EXPECT_EQ(index_of(Joint::little_tip), 25u);
+}
+
+TEST(Hand, WebXrNamesGiveEveryJoint) {
+  EXPECT_EQ(joint_from_webxr_name("pinky-finger-phalanx-proximal"), Joint::little_proximal);
+  EXPECT_EQ(joint_from_webxr_name("thumb-phalanx-distal"), Joint::thumb_distal);
+  EXPECT_EQ(joint_from_webxr_name("wrist"), Joint::wrist);
+  EXPECT_FALSE(joint_from_webxr_name("elbow").has_value());
+}
+
+TEST(Hand, NumbersThatAreNotFiniteMakeAHandUnusable) {
+  HandPose hand = test::sample_hand();
+  EXPECT_TRUE(is_usable(hand));
+  hand[Joint::ring_tip].position.y() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(is_usable(hand));
+  hand = test::sample_hand();
+  hand[Joint::wrist].position.x() = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(is_usable(hand));
+  hand = test::sample_hand();
+  hand[Joint::index_tip].rotation.coeffs().setZero();
+  EXPECT_FALSE(is_usable(hand));
+  hand = test::sample_hand();
+  hand.radius[3] = -std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(is_usable(hand));
+}
+
+TEST(Hand, AJointFarFromTheWristMakesAHandUnusable) {
+  HandPose hand = test::sample_hand();
+  hand[Joint::index_tip].position.z() -= 0.6;
+  EXPECT_FALSE(is_usable(hand));
+}
+
+TEST(Hand, MirroringTwiceGivesTheHandBack) {
+  const HandPose hand = test::placed_hand(test::sample_hand(), {0.1, 0.2, 0.3},
+                                          Quat(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized())));
+  const HandPose back = mirrored(mirrored(hand));
+  EXPECT_EQ(mirrored(hand).side, Handedness::left);
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    EXPECT_EQ(back.joints[i].position, hand.joints[i].position);
+    EXPECT_EQ(back.joints[i].rotation.coeffs(), hand.joints[i].rotation.coeffs());
+  }
+}
+
+TEST(Hand, MirroredFramesStillPointToTheTip) {
+  const HandPose left = test::sample_hand(Handedness::left);
+  const Vec3 bone = left[Joint::index_intermediate].position - left[Joint::index_proximal].position;
+  EXPECT_LT((left[Joint::index_proximal].rotation * -Vec3::UnitZ() - bone.normalized()).norm(),
+            1e-12);
+}
+
+TEST(Hand, ThePalmOfADeviceWithoutOneIsTheMiddleOfTheMiddleMetacarpal) {
+  const HandPose hand = test::sample_hand();
+  const Pose palm = palm_from_middle_metacarpal(hand);
+  const Vec3 from = hand[Joint::middle_metacarpal].position;
+  const Vec3 to = hand[Joint::middle_proximal].position;
+  EXPECT_LT((palm.position - 0.5 * (from + to)).norm(), 1e-15);
+}
+
+}  // namespace
+}  // namespace nade
