@@ -62,6 +62,7 @@ class RecordingReader {
 
   /// The next frame; no value at the end. Times are strictly increasing: a frame whose time does
   /// not advance is an error in our own format, and is left out, with a warning, when imported.
+  /// Every hand is `is_usable`: one that is not is left out of its frame, with a warning.
   [[nodiscard]] Result<std::optional<RecordedFrame>> next();
 
   /// What was odd but not fatal so far, a sentence each ("…: cut off in line 17, which is left
