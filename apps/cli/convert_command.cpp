@@ -1,13 +1,12 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cstdio>
 #include <ctime>
 #include <memory>
 #include <string>
 
 #include "commands.h"
+#include "console.h"
 #include "nade/io/recording.h"
 
 namespace nade::cli {
@@ -48,12 +47,8 @@ Status run_convert(const ConvertArguments& arguments) {
   }
   const Status finished = writer->finish();
   if (!finished.ok()) return finished;
-  for (const std::string& warning : reader->warnings()) {
-    fmt::print(stderr, "nade: warning: {}\n", warning);
-  }
-  if (::isatty(STDERR_FILENO) != 0) {
-    fmt::print(stderr, "{}: {} frames from {}\n", arguments.output, frames, arguments.input);
-  }
+  for (const std::string& warning : reader->warnings()) warn(warning);
+  say(fmt::format("{}: {} frames from {}", arguments.output, frames, arguments.input));
   return ok_status();
 }
 

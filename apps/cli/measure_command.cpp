@@ -1,11 +1,6 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -13,6 +8,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "console.h"
 #include "measure_report.h"
 #include "nade/eval/metrics.h"
 #include "nade/eval/quantile.h"
@@ -21,6 +17,7 @@
 #include "nade/io/output_file.h"
 #include "nade/io/recording.h"
 #include "object_options.h"
+#include "spooled_input.h"
 
 namespace nade::cli {
 namespace {
@@ -34,85 +31,6 @@ struct MeasureArguments {
 };
 
 constexpr const char* kStandardStream = "-";
-constexpr std::size_t kProgressFrames = 500;
-
-void warn(const std::string& sentence) { std::fprintf(stderr, "nade: %s\n", sentence.c_str()); }
-
-/// How far it is, rewritten in place; only where a person looks at it.
-class Progress {
- public:
-  explicit Progress(std::size_t total) : total_(total), shown_(::isatty(STDERR_FILENO) == 1) {}
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-  ~Progress() {
-    if (shown_) std::fputs("\r\033[K", stderr);
-  }
-  void step() {
-    ++done_;
-    if (shown_ && done_ % kProgressFrames == 0) {
-      std::fprintf(stderr, "\rmeasured %zu of %zu frames", done_, total_);
-    }
-  }
-
- private:
-  std::size_t total_;
-  std::size_t done_ = 0;
-  bool shown_;
-};
-
-/// Standard input put into a file, since the tracked recording is read twice. The file goes with
-/// this object.
-class SpooledInput {
- public:
-  [[nodiscard]] static Result<SpooledInput> read() {
-    std::error_code ignored;
-    SpooledInput input;
-    std::string path =
-        (std::filesystem::temp_directory_path(ignored) / "nade-measure-XXXXXX").string();
-    const int descriptor = ::mkstemp(path.data());
-    if (descriptor < 0) return unwritable(path);
-    input.path_ = path;
-    std::FILE* const file = ::fdopen(descriptor, "wb");
-    if (file == nullptr) {
-      ::close(descriptor);
-      return unwritable(path);
-    }
-    std::vector<char> block(1U << 16U);
-    bool written = true;
-    while (written) {
-      const std::size_t size = std::fread(block.data(), 1, block.size(), stdin);
-      if (size == 0) break;
-      written = std::fwrite(block.data(), 1, size, file) == size;
-    }
-    if (std::fclose(file) != 0 || !written) return unwritable(path);
-    return input;
-  }
-  SpooledInput(SpooledInput&& other) noexcept : path_(std::exchange(other.path_, {})) {}
-  SpooledInput& operator=(SpooledInput&& other) noexcept {
-    std::swap(path_, other.path_);
-    return *this;
-  }
-  ~SpooledInput() {
-    if (!path_.empty()) ::unlink(path_.c_str());
-  }
-  [[nodiscard]] const std::string& path() const { return path_; }
-
-  /// The error with the file called what it is to the person.
-  [[nodiscard]] Error renamed(Error error) const {
-    const std::size_t at = error.message.find(path_);
-    if (at != std::string::npos) error.message.replace(at, path_.size(), "standard input");
-    return error;
-  }
-
- private:
-  SpooledInput() = default;
-  static Error unwritable(const std::string& path) {
-    return {ErrorCode::unwritable, fmt::format("{}: expected to keep standard input there, but: {}",
-                                               path, std::strerror(errno))};
-  }
-
-  std::string path_;
-};
 
 /// The drawn hands that a recording needs, and how large the person is.
 struct DrawnHands {
@@ -187,7 +105,7 @@ void measure_pair(const RecordedFrame& tracked, const RecordedFrame& corrected,
 /// Pairs the frames by their times.
 Result<Pairing> measure_all(Recordings& recordings, const Object& object, std::size_t frames,
                             Meters& meters) {
-  Progress progress(frames);
+  Progress progress("measured", frames);
   Pairing pairing;
   Result<std::optional<RecordedFrame>> tracked = recordings.tracked.next();
   Result<std::optional<RecordedFrame>> corrected = recordings.corrected.next();
@@ -289,14 +207,6 @@ Result<MeasureReport> measure(const MeasureArguments& arguments, const std::stri
   report.hand_scale = drawn->scale;
   finish_meters(meters, report);
   return report;
-}
-
-Status write_whole(const std::string& path, const std::string& text) {
-  Result<OutputFile> file = OutputFile::create(path, OutputFile::encoding_of(path));
-  if (!file) return file.error();
-  const Status written = file->write(text);
-  if (!written) return written;
-  return file->finish();
 }
 
 Status run_measure(const MeasureArguments& arguments) {

@@ -5,8 +5,9 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <string_view>
+
+#include "console.h"
 
 namespace nade::cli {
 namespace {
@@ -86,7 +87,7 @@ Result<PlacedObject> load_placed(const ObjectOptions& options,
   Result<LoadedObject> loaded = load_object(options.object ? *options.object : recorded->object);
   if (!loaded) return loaded.error();
   for (const std::string& warning : loaded->warnings) {
-    std::fprintf(stderr, "nade: %s\n", warning.c_str());
+    warn(warning);
   }
   Placement placement = same ? recorded->placement : Placement{};
   if (options.at) placement.pose.position = *options.at;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <numbers>
+
 #include "nade/contact.h"
 #include "nade/skeleton.h"
 
@@ -8,7 +10,7 @@ namespace nade {
 /// The open points of the paper's finger step.
 struct FingerOptions {
   /// The farthest a fingertip's ray turns toward extension, radians, 0 to pi/2.
-  double max_ray_turn_rad = 1.4;
+  double max_ray_turn_rad = 80.0 * std::numbers::pi / 180.0;
 };
 
 /// What was added to each digit's movable angles, radians.

@@ -151,4 +151,12 @@ Status OutputFile::finish() {
   return ok_status();
 }
 
+Status write_whole(const std::string& path, std::string_view text) {
+  Result<OutputFile> file = OutputFile::create(path, OutputFile::encoding_of(path));
+  if (!file) return file.error();
+  const Status written = file->write(text);
+  if (!written) return written;
+  return file->finish();
+}
+
 }  // namespace nade

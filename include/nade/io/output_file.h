@@ -35,4 +35,7 @@ class OutputFile {
   std::unique_ptr<Impl> impl_;
 };
 
+/// Writes a whole text, gzip where the name ends in ".gz"; "-" is standard output.
+[[nodiscard]] Status write_whole(const std::string& path, std::string_view text);
+
 }  // namespace nade

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "nade/status.h"
+
+namespace nade::cli {
+
+/// What the command line asked for: runs it and says how it went.
+using Action = std::function<Status()>;
+
+/// Each adds one subcommand; when it is parsed, `action` becomes what it does.
+void add_convert(CLI::App& app, Action& action);
+void add_correct(CLI::App& app, Action& action);
+void add_inspect(CLI::App& app, Action& action);
+void add_measure(CLI::App& app, Action& action);
+void add_synth(CLI::App& app, Action& action);
+
+}  // namespace nade::cli

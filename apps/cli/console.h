@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace nade::cli {
+
+/// One sentence on stderr about something odd that did not stop the work.
+void warn(const std::string& sentence);
+
+/// One line on stderr where a person is looking; nothing in a pipe.
+void say(const std::string& line);
+
+/// How far a long piece of work is, rewritten in place; only where a person is looking.
+class Progress {
+ public:
+  /// `total` frames, 0 where it is not known.
+  Progress(std::string what, std::size_t total);
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  ~Progress();
+
+  void step();
+
+ private:
+  std::string what_;
+  std::size_t total_;
+  std::size_t done_ = 0;
+  bool shown_;
+};
+
+}  // namespace nade::cli

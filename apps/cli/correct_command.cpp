@@ -1,0 +1,205 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "commands.h"
+#include "console.h"
+#include "method_options.h"
+#include "nade/corrector.h"
+#include "nade/eval/press.h"
+#include "nade/eval/quantile.h"
+#include "nade/io/output_file.h"
+#include "nade/io/recording.h"
+#include "object_options.h"
+#include "spooled_input.h"
+
+namespace nade::cli {
+namespace {
+
+struct CorrectArguments {
+  std::string input;
+  std::string output;
+  ObjectOptions object;
+  MethodOptions method;
+  std::optional<double> press_m;
+  std::optional<std::string> json;
+};
+
+/// What was done, for people and programs.
+struct Summary {
+  std::size_t frames = 0;
+  std::array<std::size_t, 4> hands{};  ///< by HandStatus
+  QuantileSketch solve_us;
+};
+
+Result<PalmTrack> read_palms(const std::string& path) {
+  Result<RecordingReader> reader = RecordingReader::open(path);
+  if (!reader) return reader.error();
+  PalmTrack track;
+  while (true) {
+    const Result<std::optional<RecordedFrame>> frame = reader->next();
+    if (!frame) return frame.error();
+    if (!*frame) return track;
+    track.add(**frame);
+  }
+}
+
+/// Where the object stands: as asked, and pressed against the palms where that was asked.
+Status place(const CorrectArguments& arguments, const std::string& path, PlacedObject& placed) {
+  if (!arguments.press_m) return ok_status();
+  const Result<PalmTrack> track = read_palms(path);
+  if (!track) return track.error();
+  const Result<Placement> pressed =
+      press(placed.loaded, placed.placement, *track, *arguments.press_m);
+  if (!pressed) return pressed.error();
+  placed.placement = *pressed;
+  return ok_status();
+}
+
+RecordingHeader corrected_header(const RecordingHeader& tracked, const CorrectArguments& arguments,
+                                 const PlacedObject& placed) {
+  RecordingHeader header = tracked;
+  const std::string placing = with_placing(tracked.unknown_json, placed.placing());
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(placing);
+  json["method"] = method_name(arguments.method);
+  json["tool"] = fmt::format("nade {}", NADE_VERSION);
+  if (arguments.press_m) json["press"] = *arguments.press_m;
+  header.unknown_json = json.dump();
+  return header;
+}
+
+void correct_hand(RecordedHand& hand, HandCorrector& corrector, const Object& object,
+                  std::int64_t time_ns, Summary& summary) {
+  const auto start = std::chrono::steady_clock::now();
+  const CorrectedHand& corrected = corrector.update(hand.pose, object, time_ns);
+  const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
+  summary.solve_us.add(took.count());
+  ++summary.hands[static_cast<std::size_t>(corrected.status)];
+  hand.pose = corrected.pose;
+  hand.status = corrected.status;
+  for (std::size_t i = 0; i < kPartCount; ++i) {
+    hand.contact[i].reset();
+    if (const auto& contact = corrected.contacts[i]) {
+      hand.contact[i] = RecordedContact{contact->surface_point, contact->normal, contact->depth_m};
+    }
+  }
+}
+
+Result<Summary> correct_all(const CorrectArguments& arguments, const std::string& path,
+                            const PlacedObject& placed) {
+  Result<RecordingReader> reader = RecordingReader::open(path);
+  if (!reader) return reader.error();
+  Result<RecordingWriter> writer = RecordingWriter::create(
+      arguments.output, corrected_header(reader->header(), arguments, placed));
+  if (!writer) return writer.error();
+  const Object object = placed.object();
+  std::array<HandCorrector, 2> correctors{HandCorrector(options_of(arguments.method)),
+                                          HandCorrector(options_of(arguments.method))};
+  Summary summary;
+  Progress progress("corrected", 0);
+  while (true) {
+    Result<std::optional<RecordedFrame>> frame = reader->next();
+    if (!frame) return frame.error();
+    if (!*frame) break;
+    for (std::size_t side = 0; side < correctors.size(); ++side) {
+      auto& hand = (*frame)->hands[side];
+      if (hand) correct_hand(*hand, correctors[side], object, (*frame)->time_ns, summary);
+    }
+    const Status written = writer->write(**frame);
+    if (!written) return written.error();
+    ++summary.frames;
+    progress.step();
+  }
+  for (const std::string& warning : reader->warnings()) warn(warning);
+  const Status finished = writer->finish();
+  if (!finished) return finished.error();
+  return summary;
+}
+
+nlohmann::ordered_json as_json(const Summary& summary, const CorrectArguments& arguments,
+                               const PlacedObject& placed) {
+  auto json = nlohmann::ordered_json::parse(with_placing({}, placed.placing()));
+  json["method"] = method_name(arguments.method);
+  json["frames"] = summary.frames;
+  for (std::size_t i = 0; i < summary.hands.size(); ++i) {
+    json["hands"][std::string(name_of(static_cast<HandStatus>(i)))] = summary.hands[i];
+  }
+  const auto number = [](const std::optional<double>& value) {
+    return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+  };
+  json["solve_us_median"] = number(summary.solve_us.quantile(0.5));
+  json["solve_us_p99"] = number(summary.solve_us.quantile(0.99));
+  return json;
+}
+
+std::string as_line(const Summary& summary, const CorrectArguments& arguments) {
+  const auto count = [&](HandStatus status) {
+    return summary.hands[static_cast<std::size_t>(status)];
+  };
+  return fmt::format(
+      "{}: {} frames, hands corrected {}, released {}, free {}, untracked {}; a hand took {:.1f} "
+      "us (median), {:.1f} us (p99)",
+      arguments.output, summary.frames, count(HandStatus::corrected), count(HandStatus::released),
+      count(HandStatus::free), count(HandStatus::untracked),
+      summary.solve_us.quantile(0.5).value_or(0.0), summary.solve_us.quantile(0.99).value_or(0.0));
+}
+
+Status run_on(const CorrectArguments& arguments, const std::string& path) {
+  Result<PlacedObject> placed = load_placed(arguments.object);
+  if (!placed) return placed.error();
+  const Status stands = place(arguments, path, *placed);
+  if (!stands) return stands;
+  const Result<Summary> summary = correct_all(arguments, path, *placed);
+  if (!summary) return summary.error();
+  if (!arguments.json) {
+    say(as_line(*summary, arguments));
+    return ok_status();
+  }
+  return write_whole(*arguments.json, as_json(*summary, arguments, *placed).dump(2) + "\n");
+}
+
+Status run_correct(const CorrectArguments& arguments) {
+  if (!arguments.object.object) {
+    return Error{ErrorCode::out_of_range, "--object is needed: plane, sphere, dog or a mesh file"};
+  }
+  if (arguments.output == "-" && arguments.json == "-") {
+    return Error{ErrorCode::out_of_range, "--output and --json cannot both be standard output"};
+  }
+  if (arguments.input != "-" || !arguments.press_m) return run_on(arguments, arguments.input);
+  const Result<SpooledInput> spooled = SpooledInput::read();
+  if (!spooled) return spooled.error();
+  const Status status = run_on(arguments, spooled->path());
+  return status.ok() ? status : Status(spooled->renamed(status.error()));
+}
+
+}  // namespace
+
+void add_correct(CLI::App& app, Action& action) {
+  CLI::App* const command =
+      app.add_subcommand("correct", "Puts the hands of a recording onto an object");
+  const auto arguments = std::make_shared<CorrectArguments>();
+  command->add_option("input", arguments->input, "the recording to correct; - is stdin")
+      ->type_name("IN")
+      ->required();
+  command->add_option("-o,--output", arguments->output, "the recording to write; - is stdout")
+      ->type_name("OUT")
+      ->required();
+  add_object_options(*command, arguments->object);
+  command
+      ->add_option("--press", arguments->press_m,
+                   "moves the object so that the palms' skin lies so deep at the median")
+      ->type_name("M")
+      ->check(CLI::Range(0.0, 0.2));
+  command->add_option("--json", arguments->json, "writes the summary as JSON; - is standard output")
+      ->type_name("FILE");
+  add_method_options(*command, arguments->method);
+  command->callback(
+      [&action, arguments] { action = [arguments] { return run_correct(*arguments); }; });
+}
+
+}  // namespace nade::cli

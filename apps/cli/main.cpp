@@ -1,0 +1,38 @@
+#include <cstdio>
+
+#include "commands.h"
+
+namespace {
+
+constexpr int kDone = 0;
+constexpr int kCouldNot = 1;
+constexpr int kMisuse = 2;
+
+int parse_error(const CLI::App& app, const CLI::ParseError& error) {
+  const bool asked_for_help = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
+  app.exit(error);
+  return asked_for_help ? kDone : kMisuse;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"nade keeps a tracked hand on the surface it strokes.", "nade"};
+  app.set_version_flag("--version", std::string("nade ") + NADE_VERSION);
+  app.require_subcommand(1);
+  nade::cli::Action action;
+  nade::cli::add_correct(app, action);
+  nade::cli::add_measure(app, action);
+  nade::cli::add_synth(app, action);
+  nade::cli::add_convert(app, action);
+  nade::cli::add_inspect(app, action);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return parse_error(app, error);
+  }
+  const nade::Status status = action();
+  if (status.ok()) return kDone;
+  std::fprintf(stderr, "nade: %s\n", status.error().message.c_str());
+  return status.error().code == nade::ErrorCode::out_of_range ? kMisuse : kCouldNot;
+}

@@ -1,0 +1,122 @@
+#include "method_options.h"
+
+#include <fmt/format.h>
+
+#include <numbers>
+#include <vector>
+
+namespace nade::cli {
+namespace {
+
+constexpr const char* kGroup = "Open points of the paper (docs/method.md)";
+
+template <class T>
+struct Choice {
+  const char* name;
+  T value;
+};
+
+/// An option that takes one of a few names.
+template <class T>
+CLI::Option* add_choice(CLI::App& command, const std::string& name, T& value,
+                        const std::vector<Choice<T>>& choices, const std::string& help) {
+  std::string names;
+  for (const Choice<T>& choice : choices) {
+    names += fmt::format("{}{}", names.empty() ? "" : "|", choice.name);
+  }
+  return command
+      .add_option_function<std::string>(
+          name,
+          [=, &value](const std::string& text) {
+            for (const Choice<T>& choice : choices) {
+              if (text == choice.name) {
+                value = choice.value;
+                return;
+              }
+            }
+            throw CLI::ValidationError(name, fmt::format("expected {}, found '{}'", names, text));
+          },
+          help)
+      ->type_name(names);
+}
+
+void add_open_points(CLI::App& command, CorrectorOptions& options) {
+  ContactOptions& contact = options.contact;
+  add_choice<TestPoint>(command, "--test-point", contact.test_point,
+                        {{"skin", TestPoint::skin}, {"joint", TestPoint::joint}},
+                        "what is tested against the surface (default skin)")
+      ->group(kGroup);
+  add_choice<CountedHits>(command, "--hits", contact.counted_hits,
+                          {{"from-inside", CountedHits::from_inside}, {"any", CountedHits::any}},
+                          "which hits of a ray count (default from-inside)")
+      ->group(kGroup);
+  add_choice<FingerRay>(
+      command, "--finger-ray", contact.finger_ray,
+      {{"hand-back", FingerRay::hand_back}, {"fingertip-back", FingerRay::fingertip_back}},
+      "where a fingertip's ray goes (default hand-back)")
+      ->group(kGroup);
+  add_choice<PalmRay>(command, "--palm-ray", contact.palm_ray,
+                      {{"held", PalmRay::held}, {"follows-hand", PalmRay::follows_hand}},
+                      "the palm's ray while the palm is below (default held)")
+      ->group(kGroup);
+  add_choice<EntrySide>(
+      command, "--entry-side", contact.entry_side,
+      {{"remembered", EntrySide::remembered}, {"forgotten", EntrySide::forgotten}},
+      "of a part pushed through a thin wall (default remembered)")
+      ->group(kGroup);
+  add_choice<SkinSource>(command, "--skin", options.skin_source,
+                         {{"radii", SkinSource::radii}, {"mesh", SkinSource::mesh}},
+                         "where fingertip thickness comes from (default radii)")
+      ->group(kGroup);
+  command
+      .add_option("--full-turn-depth", contact.full_turn_depth_m,
+                  "depth at which the palm lies along the surface")
+      ->type_name("M")
+      ->check(CLI::Range(0.0, 0.2))
+      ->capture_default_str()
+      ->group(kGroup);
+  command
+      .add_option_function<double>(
+          "--max-ray-turn",
+          [&options](const double& degrees) {
+            options.fingers.max_ray_turn_rad = degrees * std::numbers::pi / 180.0;
+          },
+          "farthest turn of a fingertip's ray toward extension (default 80)")
+      ->type_name("DEG")
+      ->check(CLI::Range(0.0, 90.0))
+      ->group(kGroup);
+  command
+      .add_option("--release", options.release_s,
+                  "time over which what is left of a correction fades")
+      ->type_name("S")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str()
+      ->group(kGroup);
+}
+
+}  // namespace
+
+void add_method_options(CLI::App& command, MethodOptions& options) {
+  add_choice<Method>(command, "--method", options.corrector.method,
+                     {{"paper", Method::paper}, {"none", Method::none}},
+                     "how to correct (default paper)");
+  CLI::Option* const literal = command.add_flag("--paper-literal", options.literal,
+                                                "every open point as the paper's text has it");
+  literal->group(kGroup);
+  add_open_points(command, options.corrector);
+  for (CLI::Option* option : command.get_options()) {
+    if (option != literal && option->get_group() == kGroup) literal->excludes(option);
+  }
+}
+
+const CorrectorOptions& options_of(const MethodOptions& options) {
+  static const CorrectorOptions kLiteral = paper_literal();
+  return options.literal ? kLiteral : options.corrector;
+}
+
+std::string method_name(const MethodOptions& options) {
+  if (options.literal) return "paper_literal";
+  return options.corrector.method == Method::none ? "none" : "paper";
+}
+
+}  // namespace nade::cli
