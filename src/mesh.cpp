@@ -18,7 +18,8 @@ namespace nade {
 namespace {
 
 using detail::Corners;
-using detail::kNoTriangle;
+using detail::kNoSlot;
+using detail::SlotTriangle;
 
 /// Which part of a triangle a point is nearest to.
 enum class Feature : std::uint8_t { vertex_0, vertex_1, vertex_2, edge_01, edge_12, edge_20, face };
@@ -29,12 +30,8 @@ struct TrianglePoint {
   Feature feature;
 };
 
-struct TrianglePositions {
-  Vec3 a, b, c;
-};
-
-TrianglePoint nearest_on(const TrianglePositions& triangle, const Vec3& query) {
-  const auto& [a, b, c] = triangle;
+TrianglePoint nearest_on(const std::array<Vec3, 3>& corners, const Vec3& query) {
+  const auto& [a, b, c] = corners;
   const Vec3 ab = b - a;
   const Vec3 ac = c - a;
   const Vec3 aq = query - a;
@@ -72,19 +69,31 @@ TrianglePoint nearest_on(const TrianglePositions& triangle, const Vec3& query) {
   return {a + v * ab + w * ac, {1.0 - v - w, v, w}, Feature::face};
 }
 
-/// Where the ray's line meets the triangle's plane, moved onto the triangle where rounding puts
-/// it beside.
-TrianglePoint meet(const TrianglePositions& triangle, const Vec3& normal, const Ray& ray) {
-  const double slope = normal.dot(ray.direction);
-  const double distance = slope != 0.0 ? normal.dot(triangle.a - ray.origin) / slope : 0.0;
-  return nearest_on(triangle, ray.origin + distance * ray.direction);
+/// Not normalised.
+Vec3 face_normal(const std::array<Vec3, 3>& corners) {
+  return (corners[1] - corners[0]).cross(corners[2] - corners[0]);
 }
 
-/// The least larger float, so that a bound includes what lies on it.
-float round_up(double value) {
-  return std::nextafter(static_cast<float>(value * (1.0 + 1e-6)),
-                        std::numeric_limits<float>::infinity());
+/// Where the ray's line meets the triangle's plane, moved onto the triangle where rounding puts
+/// it beside.
+TrianglePoint meet(const std::array<Vec3, 3>& corners, const Vec3& face, const Ray& ray) {
+  const double slope = face.dot(ray.direction);
+  const double distance = slope != 0.0 ? face.dot(corners[0] - ray.origin) / slope : 0.0;
+  return nearest_on(corners, ray.origin + distance * ray.direction);
 }
+
+/// Unit; the face's where interpolation cancels out.
+Vec3 shading_normal(const SlotTriangle& triangle, const Vec3& weights, const Vec3& face) {
+  const Vec3 normal = weights[0] * triangle.normals[0] + weights[1] * triangle.normals[1] +
+                      weights[2] * triangle.normals[2];
+  const double length = normal.norm();
+  constexpr double kShortest = 1e-3;
+  if (length > kShortest) return normal / length;
+  return face.squaredNorm() > 0.0 ? face.stableNormalized() : Vec3::UnitY();
+}
+
+/// A little more, so that a bound includes what lies on it.
+float round_up(double value) { return static_cast<float>(value * (1.0 + 1e-6)) + 1e-18F; }
 
 }  // namespace
 
@@ -98,31 +107,14 @@ struct MeshSurface::Impl {
   Vec3 centre = Vec3::Zero();
   double radius = 0.0;
 
-  [[nodiscard]] TrianglePositions positions(std::uint32_t triangle) const {
-    const Corners& corners = mesh.triangles[triangle];
-    return {mesh.vertices[corners[0]].cast<double>(), mesh.vertices[corners[1]].cast<double>(),
-            mesh.vertices[corners[2]].cast<double>()};
-  }
-
   void follow_vertices() {
+    normals.update(mesh);
+    tree.set_shading(normals.shading(), normals.shading_of());
     tree.set_triangles(mesh.vertices, mesh.triangles);
     if (topology.sign == detail::SignRule::winding) tree.set_dipoles();
     const Eigen::AlignedBox3f& bounds = tree.bounds();
     centre = bounds.center().cast<double>();
     radius = 0.5 * bounds.diagonal().cast<double>().norm();
-  }
-
-  /// Unit; the face's where the interpolated one vanishes.
-  [[nodiscard]] Vec3 shading_normal(std::uint32_t triangle, const Vec3& weights,
-                                    const Vec3& face) const {
-    Vec3 normal = Vec3::Zero();
-    for (std::size_t k = 0; k < 3; ++k) {
-      normal += weights[static_cast<Eigen::Index>(k)] * normals.shading(triangle, k);
-    }
-    const double length = normal.norm();
-    constexpr double kShortest = 1e-3;
-    if (length > kShortest) return normal / length;
-    return face.squaredNorm() > 0.0 ? face.stableNormalized() : Vec3::UnitY();
   }
 
   [[nodiscard]] bool is_inside(const Vec3& query, std::uint32_t triangle,
@@ -216,15 +208,15 @@ std::optional<RayHit> MeshSurface::first_hit(const Ray& ray) const noexcept {
   }
   query.max_distance = round_up(std::min(ray.max_distance - skipped, 1e3 * kFar * impl_->radius));
   const detail::TreeHit hit = impl_->tree.first_hit(query);
-  if (hit.triangle == kNoTriangle) return std::nullopt;
+  if (hit.slot == kNoSlot) return std::nullopt;
 
-  const TrianglePositions triangle = impl_->positions(hit.triangle);
-  const Vec3 face = (triangle.b - triangle.a).cross(triangle.c - triangle.a);
-  const TrianglePoint met = meet(triangle, face, ray);
+  const SlotTriangle triangle = impl_->tree.at(hit.slot);
+  const Vec3 face = face_normal(triangle.corners);
+  const TrianglePoint met = meet(triangle.corners, face, ray);
   const double distance = std::max(0.0, (met.point - ray.origin).dot(ray.direction));
   if (distance > ray.max_distance) return std::nullopt;
   const bool from_inside = face.dot(ray.direction) > 0.0;
-  Vec3 normal = impl_->shading_normal(hit.triangle, met.weights, face);
+  Vec3 normal = shading_normal(triangle, met.weights, face);
   // Interpolation may tip a normal over to the other side of a grazing ray: lay it across.
   const double along = normal.dot(ray.direction);
   if ((along > 0.0) != from_inside) {
@@ -250,29 +242,23 @@ std::optional<SurfacePoint> MeshSurface::closest_point(const Vec3& query, double
   for (int axis = 0; axis < 3; ++axis) {
     tree_query.point[axis] = static_cast<float>(seen_from[axis]);
   }
-  double bound = std::min(max_distance + (query - seen_from).norm(), 4.0 * kFar * impl_->radius);
-  tree_query.triangle = kNoTriangle;
-  if (hint.element < impl_->mesh.triangles.size()) {
-    const double reach =
-        (nearest_on(impl_->positions(hint.element), seen_from).point - seen_from).norm();
-    if (reach <= bound) {
-      bound = reach;
-      tree_query.triangle = hint.element;
-    }
-  }
+  tree_query.hint_block =
+      impl_->tree.has(hint.element) ? hint.element / detail::kTreeWidth : kNoSlot;
+  const double bound =
+      std::min(max_distance + (query - seen_from).norm(), 4.0 * kFar * impl_->radius);
   const float rounded = round_up(bound);
   tree_query.bound_squared = rounded * rounded;
   const std::uint32_t found = impl_->tree.closest(tree_query);
-  if (found == kNoTriangle) return std::nullopt;
+  if (found == kNoSlot) return std::nullopt;
 
-  const TrianglePositions triangle = impl_->positions(found);
-  const Vec3 face = (triangle.b - triangle.a).cross(triangle.c - triangle.a);
-  const TrianglePoint nearest = nearest_on(triangle, query);
+  const SlotTriangle triangle = impl_->tree.at(found);
+  const Vec3 face = face_normal(triangle.corners);
+  const TrianglePoint nearest = nearest_on(triangle.corners, query);
   const double distance = (query - nearest.point).stableNorm();
   if (!(distance <= max_distance)) return std::nullopt;
   hint.element = found;
-  const bool inside = impl_->is_inside(seen_from, found, nearest, face);
-  return SurfacePoint{nearest.point, impl_->shading_normal(found, nearest.weights, face),
+  const bool inside = impl_->is_inside(seen_from, triangle.triangle, nearest, face);
+  return SurfacePoint{nearest.point, shading_normal(triangle, nearest.weights, face),
                       inside ? -distance : distance};
 }
 
@@ -282,7 +268,6 @@ void MeshSurface::refit(std::span<const Eigen::Vector3f> vertices) noexcept {
     impl_->mesh.vertices[i] = vertices[impl_->mesh.source[i]];
   }
   impl_->follow_vertices();
-  impl_->normals.update(impl_->mesh);
 }
 
 const MeshReport& MeshSurface::report() const { return impl_->report; }

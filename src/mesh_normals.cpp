@@ -89,7 +89,6 @@ void MeshNormals::build(const WeldedMesh& mesh, const MeshTopology& topology) {
   }
   shading_.resize(sets_found);
   vertex_pseudonormals_.resize(mesh.vertices.size());
-  update(mesh);
 }
 
 void MeshNormals::update(const WeldedMesh& mesh) noexcept {
@@ -110,7 +109,11 @@ void MeshNormals::update(const WeldedMesh& mesh) noexcept {
       shading_[shading_index_[t][k]] += weighted;
     }
   }
-  for (Vector3f& normal : shading_) normal.stableNormalize();
+  // Where the faces around cancel out any normal is as good.
+  for (Vector3f& normal : shading_) {
+    normal.stableNormalize();
+    if (!(normal.squaredNorm() > 0.5F)) normal = Vector3f::UnitY();
+  }
 }
 
 }  // namespace nade::detail

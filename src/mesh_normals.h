@@ -11,6 +11,7 @@ namespace nade::detail {
 /// normals run smoothly over the surface and break at creases; they are what queries return.
 class MeshNormals {
  public:
+  /// `update` must follow.
   void build(const WeldedMesh& mesh, const MeshTopology& topology);
 
   /// After vertices have moved. Creases stay where `build` found them. Does not allocate.
@@ -23,10 +24,10 @@ class MeshNormals {
   /// Whether the vertex ends a border edge.
   [[nodiscard]] bool on_border(std::uint32_t vertex) const { return on_border_[vertex] != 0; }
 
-  /// At a corner of a triangle; unit, or zero where the triangles around cancel out.
-  [[nodiscard]] Eigen::Vector3d shading(std::uint32_t triangle, std::size_t corner) const {
-    return shading_[shading_index_[triangle][corner]].cast<double>();
-  }
+  /// Unit.
+  [[nodiscard]] std::span<const Eigen::Vector3f> shading() const { return shading_; }
+  /// For each triangle's corners, which of `shading`.
+  [[nodiscard]] std::span<const Corners> shading_of() const { return shading_index_; }
 
  private:
   std::vector<Eigen::Vector3f> vertex_pseudonormals_;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "octahedral.h"
+
 // Based on: Wald. On fast Construction of SAH-based Bounding Volume Hierarchies. 2007.
 
 namespace nade::detail {
@@ -14,7 +16,7 @@ using Eigen::Vector3f;
 
 constexpr std::uint32_t kBins = 16;
 /// Leaves are not split below this: a half-empty block costs as much as a full one.
-constexpr std::uint32_t kLeafTarget = 4;
+constexpr std::uint32_t kLeafTarget = 8;
 /// From this depth on ranges are halved, which bounds the depth whatever the triangles are like.
 constexpr std::uint32_t kHalvingDepth = 32;
 
@@ -116,9 +118,6 @@ class Builder {
     nodes_->emplace_back();
     std::array<Range, kTreeWidth> children;
     const std::uint32_t count = divide(range, depth, children);
-    // In the order of their triangles, which is the order of blocks.
-    std::sort(children.begin(), children.begin() + count,
-              [](const Range& a, const Range& b) { return a.begin < b.begin; });
     std::array<std::uint32_t, kTreeWidth> child;
     child.fill(kNoChild);
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -151,8 +150,10 @@ class Builder {
       if (chosen == kTreeWidth) break;
       const Range parent = children[chosen];
       const std::uint32_t middle = cut(parent, depth);
+      // In the order of their triangles, which is the order of blocks.
+      for (std::uint32_t i = count++; i > chosen + 1; --i) children[i] = children[i - 1];
       children[chosen] = whole(parent.begin, middle);
-      children[count++] = whole(middle, parent.end);
+      children[chosen + 1] = whole(middle, parent.end);
     }
     return count;
   }
@@ -234,8 +235,8 @@ Box box_of(const TreeNode& node) {
   Box box;
   for (std::uint32_t i = 0; i < kTreeWidth; ++i) {
     if (node.child[i] == kNoChild) continue;
-    box.extend(Vector3f(node.low[0][i], node.low[1][i], node.low[2][i]));
-    box.extend(Vector3f(node.high[0][i], node.high[1][i], node.high[2][i]));
+    box.extend(Vector3f(node.side[0][i], node.side[1][i], node.side[2][i]));
+    box.extend(Vector3f(node.side[3][i], node.side[4][i], node.side[5][i]));
   }
   return box;
 }
@@ -256,7 +257,6 @@ void fill_block(TriangleBlock& block, std::uint32_t begin, std::uint32_t end,
     const bool used = begin + i < end;
     const std::uint32_t triangle = used ? begin + i : end - 1;
     const Corners& corners = triangles[triangle];
-    block.triangle[i] = triangle;
     for (int axis = 0; axis < 3; ++axis) {
       block.a[axis][i] = vertices[corners[0]][axis];
       block.b[axis][i] = vertices[corners[used ? 1 : 0]][axis];
@@ -329,13 +329,44 @@ void TriangleTree::set_triangles(std::span<const Vector3f> vertices,
         box = (child & kLeafBit) != 0 ? box_of(blocks_[child & ~kLeafBit]) : box_of(nodes_[child]);
       }
       for (int axis = 0; axis < 3; ++axis) {
-        node->low[axis][i] = box.low[axis];
-        node->high[axis][i] = box.high[axis];
+        node->side[axis][i] = box.low[axis];
+        node->side[axis + 3][i] = box.high[axis];
       }
     }
   }
   const Box box = box_of(nodes_.front());
   bounds_ = AlignedBox3f(box.low, box.high);
+}
+
+void TriangleTree::set_shading(std::span<const Vector3f> normals,
+                               std::span<const Corners> normal_of) noexcept {
+  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+    TriangleBlock& block = blocks_[i];
+    for (std::uint32_t lane = 0; lane < kTreeWidth; ++lane) {
+      const std::uint32_t triangle = std::min(block_begin_[i] + lane, block_begin_[i + 1] - 1);
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        const Octahedral normal = to_octahedral(normals[normal_of[triangle][corner]]);
+        block.normal[corner][0][lane] = normal.u;
+        block.normal[corner][1][lane] = normal.v;
+      }
+    }
+  }
+}
+
+SlotTriangle TriangleTree::at(std::uint32_t slot) const noexcept {
+  const std::uint32_t index = slot / kTreeWidth;
+  const TriangleBlock& block = blocks_[index];
+  const std::uint32_t count = block_begin_[index + 1] - block_begin_[index];
+  const std::uint32_t lane = std::min(slot % kTreeWidth, count - 1);
+  const auto corner = [lane](const float(&p)[3][kTreeWidth]) {
+    return Eigen::Vector3d(p[0][lane], p[1][lane], p[2][lane]);
+  };
+  const auto normal = [&](int k) {
+    return from_octahedral({block.normal[k][0][lane], block.normal[k][1][lane]});
+  };
+  return {block_begin_[index] + lane,
+          {corner(block.a), corner(block.b), corner(block.c)},
+          {normal(0), normal(1), normal(2)}};
 }
 
 void TriangleTree::set_dipoles() {
@@ -366,8 +397,8 @@ void TriangleTree::set_dipoles() {
       const Eigen::Vector3d centre = dipole.weighted_centre / dipole.area;
       double radius_squared = 0.0;
       for (int axis = 0; axis < 3; ++axis) {
-        const double reach = std::max(centre[axis] - static_cast<double>(node.low[axis][i]),
-                                      static_cast<double>(node.high[axis][i]) - centre[axis]);
+        const double reach = std::max(centre[axis] - static_cast<double>(node.side[axis][i]),
+                                      static_cast<double>(node.side[axis + 3][i]) - centre[axis]);
         radius_squared += reach * reach;
         out.centre[axis][i] = static_cast<float>(centre[axis]);
         out.vector_area[axis][i] = static_cast<float>(dipole.vector_area[axis]);

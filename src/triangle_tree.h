@@ -12,6 +12,13 @@ namespace nade::detail {
 
 using Corners = std::array<std::uint32_t, 3>;
 
+/// A triangle as the tree keeps it.
+struct SlotTriangle {
+  std::uint32_t triangle;  ///< in the order that `TriangleTree::build` gave
+  std::array<Eigen::Vector3d, 3> corners;
+  std::array<Eigen::Vector3d, 3> normals;  ///< shading; as long as `from_octahedral` makes them
+};
+
 /// A bounding volume tree over triangles, eight children a node. It finds which triangle; the
 /// exact answer on that triangle is the caller's.
 class TriangleTree {
@@ -26,6 +33,10 @@ class TriangleTree {
   void set_triangles(std::span<const Eigen::Vector3f> vertices,
                      std::span<const Corners> triangles) noexcept;
 
+  /// Shading normals, and which of them each corner has; none zero. Does not allocate.
+  void set_shading(std::span<const Eigen::Vector3f> normals,
+                   std::span<const Corners> normal_of) noexcept;
+
   /// Makes `winding` ready: call once, then again after each `set_triangles`. Allocates the
   /// first time.
   void set_dipoles();
@@ -34,10 +45,16 @@ class TriangleTree {
   [[nodiscard]] TreeHit first_hit(const TreeRay& ray) const noexcept {
     return kernels_->first_hit(nodes_.data(), blocks_.data(), ray);
   }
-  /// The triangle nearest the point.
+  /// The slot of the triangle nearest the point.
   [[nodiscard]] std::uint32_t closest(const TreePoint& point) const noexcept {
     return kernels_->closest(nodes_.data(), blocks_.data(), point);
   }
+  /// Whether this could be a slot.
+  [[nodiscard]] bool has(std::uint32_t slot) const noexcept {
+    return slot / kTreeWidth < blocks_.size();
+  }
+  [[nodiscard]] SlotTriangle at(std::uint32_t slot) const noexcept;
+
   /// Generalised winding number of the point (Jacobson et al. 2013), to about 0.02.
   [[nodiscard]] float winding(const float (&point)[3]) const noexcept {
     return kernels_->winding(nodes_.data(), blocks_.data(), dipoles_.data(), point);

@@ -29,23 +29,40 @@ struct StackEntry {
 /// Children still to be visited, nearest on top.
 struct Stack {
   StackEntry entries[kStackSize];
-  std::uint32_t size = 0;
+  StackEntry* top = entries;  ///< one beyond the last
 
-  void push(const TreeNode& node, Float8 keys8, unsigned lanes) {
+  /// Where to go next among the children in `lanes` (one at least); the others wait.
+  std::uint32_t descend(const TreeNode& node, Float8 keys8, unsigned lanes) {
+    const int first = __builtin_ctz(lanes);
+    lanes &= lanes - 1;
+    if (lanes == 0) return node.child[first];
     float keys[kTreeWidth];
     store8(keys, keys8);
-    const std::uint32_t first = size;
-    while (lanes != 0) {
-      const auto lane = static_cast<std::uint32_t>(__builtin_ctz(lanes));
+    StackEntry nearest{keys[first], node.child[first]};
+    StackEntry* const bottom = top;
+    do {
+      const int lane = __builtin_ctz(lanes);
       lanes &= lanes - 1;
-      const StackEntry entry{keys[lane], node.child[lane]};
-      std::uint32_t place = size++;
-      while (place > first && entries[place - 1].key < entry.key) {
-        entries[place] = entries[place - 1];
-        --place;
+      StackEntry entry{keys[lane], node.child[lane]};
+      if (entry.key < nearest.key) {
+        const StackEntry other = nearest;
+        nearest = entry;
+        entry = other;
       }
-      entries[place] = entry;
+      StackEntry* place = top++;
+      for (; place != bottom && place[-1].key < entry.key; --place) *place = place[-1];
+      *place = entry;
+    } while (lanes != 0);
+    return nearest.child;
+  }
+
+  /// The next child nearer than `bound`; or `kNoChild`.
+  std::uint32_t pop(float bound) {
+    while (top != entries) {
+      --top;
+      if (top->key < bound) return top->child;
     }
+    return kNoChild;
   }
 };
 
@@ -54,7 +71,7 @@ struct Ray8 {
   Vec8 origin;
   Vec8 direction;
   Vec8 inverse;
-  int near_is_high[3];
+  int near_side[3];  ///< as a place in `TreeNode::side`
 
   explicit Ray8(const TreeRay& ray)
       : origin(all_vec8(ray.origin)), direction(all_vec8(ray.direction)) {
@@ -64,7 +81,7 @@ struct Ray8 {
       constexpr float kSmallest = 1e-18F;
       const float magnitude = __builtin_fabsf(d) < kSmallest ? kSmallest : __builtin_fabsf(d);
       inverse_direction[axis] = 1.0F / __builtin_copysignf(magnitude, d);
-      near_is_high[axis] = inverse_direction[axis] < 0.0F ? 1 : 0;
+      near_side[axis] = inverse_direction[axis] < 0.0F ? axis + 3 : axis;
     }
     inverse = all_vec8(inverse_direction);
   }
@@ -76,18 +93,16 @@ struct BoxHits {
 };
 
 inline BoxHits enter_boxes(const TreeNode& node, const Ray8& ray, float bound) {
-  const auto near_side = [&](int axis) {
-    return load8(ray.near_is_high[axis] != 0 ? node.high[axis] : node.low[axis]);
+  const auto slab = [&](int side, Float8 origin, Float8 inverse) {
+    return (load8(node.side[side]) - origin) * inverse;
   };
-  const auto far_side = [&](int axis) {
-    return load8(ray.near_is_high[axis] != 0 ? node.low[axis] : node.high[axis]);
-  };
-  const Float8 near_x = (near_side(0) - ray.origin.x) * ray.inverse.x;
-  const Float8 near_y = (near_side(1) - ray.origin.y) * ray.inverse.y;
-  const Float8 near_z = (near_side(2) - ray.origin.z) * ray.inverse.z;
-  const Float8 far_x = (far_side(0) - ray.origin.x) * ray.inverse.x;
-  const Float8 far_y = (far_side(1) - ray.origin.y) * ray.inverse.y;
-  const Float8 far_z = (far_side(2) - ray.origin.z) * ray.inverse.z;
+  const int* const near_side = ray.near_side;
+  const Float8 near_x = slab(near_side[0], ray.origin.x, ray.inverse.x);
+  const Float8 near_y = slab(near_side[1], ray.origin.y, ray.inverse.y);
+  const Float8 near_z = slab(near_side[2], ray.origin.z, ray.inverse.z);
+  const Float8 far_x = slab(3 - near_side[0], ray.origin.x, ray.inverse.x);
+  const Float8 far_y = slab(5 - near_side[1], ray.origin.y, ray.inverse.y);
+  const Float8 far_z = slab(7 - near_side[2], ray.origin.z, ray.inverse.z);
   const Float8 entry = max8(max8(near_x, near_y), max8(near_z, all8(0.0F)));
   // A few roundings wide, so that a ray along a box's face stays in.
   constexpr float kWiden = 1.0F + 1e-6F;
@@ -95,7 +110,9 @@ inline BoxHits enter_boxes(const TreeNode& node, const Ray8& ray, float bound) {
   return {entry, bits8(less_equal8(entry, exit))};
 }
 
-inline void hit_block(const TriangleBlock& block, const Ray8& ray, TreeHit& best) {
+inline void hit_block(const TriangleBlock* blocks, std::uint32_t index, const Ray8& ray,
+                      TreeHit& best) {
+  const TriangleBlock& block = blocks[index];
   const Vec8 a = load_vec8(block.a) - ray.origin;
   const Vec8 b = load_vec8(block.b) - ray.origin;
   const Vec8 c = load_vec8(block.c) - ray.origin;
@@ -121,33 +138,31 @@ inline void hit_block(const TriangleBlock& block, const Ray8& ray, TreeHit& best
   store8(distances, distance);
   for (; lanes != 0; lanes &= lanes - 1) {
     const int lane = __builtin_ctz(lanes);
-    if (distances[lane] < best.distance) best = {block.triangle[lane], distances[lane]};
+    if (distances[lane] < best.distance) {
+      best = {index * kTreeWidth + static_cast<std::uint32_t>(lane), distances[lane]};
+    }
   }
 }
 
 TreeHit first_hit_kernel(const TreeNode* nodes, const TriangleBlock* blocks,
                          const TreeRay& query) noexcept {
   const Ray8 ray(query);
-  TreeHit best{kNoTriangle, query.max_distance};
+  TreeHit best{kNoSlot, query.max_distance};
   Stack stack;
   std::uint32_t current = 0;
   while (true) {
     if ((current & kLeafBit) != 0) {
-      hit_block(blocks[current & ~kLeafBit], ray, best);
+      hit_block(blocks, current & ~kLeafBit, ray, best);
     } else {
       const TreeNode& node = nodes[current];
       const BoxHits hits = enter_boxes(node, ray, best.distance);
-      if (hits.lanes != 0 && (hits.lanes & (hits.lanes - 1)) == 0) {
-        current = node.child[__builtin_ctz(hits.lanes)];
+      if (hits.lanes != 0) {
+        current = stack.descend(node, hits.entry, hits.lanes);
         continue;
       }
-      stack.push(node, hits.entry, hits.lanes);
     }
-    do {
-      if (stack.size == 0) return best;
-      --stack.size;
-    } while (stack.entries[stack.size].key > best.distance);
-    current = stack.entries[stack.size].child;
+    current = stack.pop(best.distance);
+    if (current == kNoChild) return best;
   }
 }
 
@@ -158,8 +173,14 @@ inline Float8 segment_squared(const Vec8& p, const Vec8& along) {
   return dot8(d, d);
 }
 
-inline void nearest_in_block(const TriangleBlock& block, const Vec8& point, float& bound_squared,
-                             std::uint32_t& triangle) {
+struct Nearest {
+  float squared;
+  std::uint32_t slot;
+};
+
+inline void nearest_in_block(const TriangleBlock* blocks, std::uint32_t index, const Vec8& point,
+                             Nearest& best) {
+  const TriangleBlock& block = blocks[index];
   const Vec8 a = load_vec8(block.a);
   const Vec8 b = load_vec8(block.b);
   const Vec8 c = load_vec8(block.c);
@@ -179,52 +200,47 @@ inline void nearest_in_block(const TriangleBlock& block, const Vec8& point, floa
   const Float8 to_edges =
       min8(segment_squared(pa, ab), min8(segment_squared(pb, bc), segment_squared(pc, ca)));
   const Float8 squared = select8(above, to_plane, to_edges);
-  unsigned lanes = bits8(less8(squared, all8(bound_squared)));
+  unsigned lanes = bits8(less8(squared, all8(best.squared)));
   if (lanes == 0) return;
   float values[kTreeWidth];
   store8(values, squared);
   for (; lanes != 0; lanes &= lanes - 1) {
     const int lane = __builtin_ctz(lanes);
-    if (values[lane] < bound_squared) {
-      bound_squared = values[lane];
-      triangle = block.triangle[lane];
+    if (values[lane] < best.squared) {
+      best = {values[lane], index * kTreeWidth + static_cast<std::uint32_t>(lane)};
     }
   }
 }
 
 inline Float8 box_squared(const TreeNode& node, const Vec8& point) {
   const Float8 zero = all8(0.0F);
-  const Float8 x = max8(max8(load8(node.low[0]) - point.x, point.x - load8(node.high[0])), zero);
-  const Float8 y = max8(max8(load8(node.low[1]) - point.y, point.y - load8(node.high[1])), zero);
-  const Float8 z = max8(max8(load8(node.low[2]) - point.z, point.z - load8(node.high[2])), zero);
+  const Float8 x = max8(max8(load8(node.side[0]) - point.x, point.x - load8(node.side[3])), zero);
+  const Float8 y = max8(max8(load8(node.side[1]) - point.y, point.y - load8(node.side[4])), zero);
+  const Float8 z = max8(max8(load8(node.side[2]) - point.z, point.z - load8(node.side[5])), zero);
   return fma8(x, x, fma8(y, y, z * z));
 }
 
 std::uint32_t closest_kernel(const TreeNode* nodes, const TriangleBlock* blocks,
                              const TreePoint& query) noexcept {
   const Vec8 point = all_vec8(query.point);
-  float bound_squared = query.bound_squared;
-  std::uint32_t triangle = query.triangle;
+  Nearest best{query.bound_squared, kNoSlot};
+  if (query.hint_block != kNoSlot) nearest_in_block(blocks, query.hint_block, point, best);
   Stack stack;
   std::uint32_t current = 0;
   while (true) {
     if ((current & kLeafBit) != 0) {
-      nearest_in_block(blocks[current & ~kLeafBit], point, bound_squared, triangle);
+      nearest_in_block(blocks, current & ~kLeafBit, point, best);
     } else {
       const TreeNode& node = nodes[current];
       const Float8 squared = box_squared(node, point);
-      const unsigned lanes = bits8(less8(squared, all8(bound_squared)));
-      if (lanes != 0 && (lanes & (lanes - 1)) == 0) {
-        current = node.child[__builtin_ctz(lanes)];
+      const unsigned lanes = bits8(less8(squared, all8(best.squared)));
+      if (lanes != 0) {
+        current = stack.descend(node, squared, lanes);
         continue;
       }
-      stack.push(node, squared, lanes);
     }
-    do {
-      if (stack.size == 0) return triangle;
-      --stack.size;
-    } while (!(stack.entries[stack.size].key < bound_squared));
-    current = stack.entries[stack.size].child;
+    current = stack.pop(best.squared);
+    if (current == kNoChild) return best.slot;
   }
 }
 

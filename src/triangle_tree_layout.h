@@ -13,30 +13,32 @@ inline constexpr std::uint32_t kTreeWidth = 8;
 inline constexpr std::uint32_t kNoChild = 0xffffffff;
 /// In `TreeNode::child`: the rest of the number is a block's, not a node's.
 inline constexpr std::uint32_t kLeafBit = 0x80000000;
-inline constexpr std::uint32_t kNoTriangle = 0xffffffff;
+/// A triangle's place: eight times its block, plus where in it.
+inline constexpr std::uint32_t kNoSlot = 0xffffffff;
 /// Deepest path from the root; the build sees to it that it holds.
 inline constexpr std::uint32_t kTreeDepth = 64;
 
 /// Up to eight child boxes, coordinate by coordinate. An unused child's box is inside out, so no
 /// query enters it. Children stand behind their parent.
-struct alignas(32) TreeNode {
-  float low[3][kTreeWidth];
-  float high[3][kTreeWidth];
+struct alignas(64) TreeNode {
+  float side[6][kTreeWidth];  ///< low x, y, z; high x, y, z
   std::uint32_t child[kTreeWidth];
 };
 
-/// Up to eight triangles, coordinate by coordinate. Unused places repeat one corner of the last
+/// Up to eight triangles, coordinate by coordinate, and what an answer needs to know about them,
+/// so that it costs no further look into memory. Unused places repeat one corner of the last
 /// triangle three times: without area, at no distance that is not its own.
-struct alignas(32) TriangleBlock {
+struct alignas(64) TriangleBlock {
   float a[3][kTreeWidth];
   float b[3][kTreeWidth];
   float c[3][kTreeWidth];
-  std::uint32_t triangle[kTreeWidth];
+  /// Shading normals at a, b and c, on an octahedron (see `octahedral.h`).
+  std::int16_t normal[3][2][kTreeWidth];
 };
 
 /// For each child of the node of the same number, what its triangles look like from afar: a
 /// dipole (Barill et al. 2018).
-struct alignas(32) DipoleNode {
+struct alignas(64) DipoleNode {
   float centre[3][kTreeWidth];       ///< area-weighted
   float vector_area[3][kTreeWidth];  ///< sum of area x normal
   float near_squared[kTreeWidth];    ///< nearer than this it must be looked at in detail
@@ -44,7 +46,7 @@ struct alignas(32) DipoleNode {
 };
 
 struct TreeHit {
-  std::uint32_t triangle = kNoTriangle;
+  std::uint32_t slot = kNoSlot;
   float distance = 0.0F;
 };
 
@@ -56,8 +58,8 @@ struct TreeRay {
 
 struct TreePoint {
   float point[3];
-  float bound_squared;     ///< look only for what is nearer
-  std::uint32_t triangle;  ///< the answer if nothing is
+  float bound_squared;       ///< look only for what is nearer
+  std::uint32_t hint_block;  ///< looked at first; or `kNoSlot`
 };
 
 /// The queries, compiled for one instruction set. All start at node 0.
