@@ -79,7 +79,13 @@ Vec3 face_normal(const std::array<Vec3, 3>& corners) {
 TrianglePoint meet(const std::array<Vec3, 3>& corners, const Vec3& face, const Ray& ray) {
   const double slope = face.dot(ray.direction);
   const double distance = slope != 0.0 ? face.dot(corners[0] - ray.origin) / slope : 0.0;
-  return nearest_on(corners, ray.origin + distance * ray.direction);
+  const Vec3 point = ray.origin + distance * ray.direction;
+  const double per_area = 1.0 / face.squaredNorm();
+  const Vec3 from_a = point - corners[0];
+  const double b = face.dot(from_a.cross(corners[2] - corners[0])) * per_area;
+  const double c = face.dot((corners[1] - corners[0]).cross(from_a)) * per_area;
+  if (b >= 0.0 && c >= 0.0 && b + c <= 1.0) return {point, {1.0 - b - c, b, c}, Feature::face};
+  return nearest_on(corners, point);
 }
 
 /// Unit; the face's where interpolation cancels out.

@@ -11,7 +11,6 @@
 namespace nade::detail {
 namespace {
 
-using Eigen::AlignedBox3f;
 using Eigen::Vector3f;
 
 constexpr std::uint32_t kBins = 16;
@@ -321,12 +320,22 @@ void TriangleTree::set_triangles(std::span<const Vector3f> vertices,
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
     fill_block(blocks_[i], block_begin_[i], block_begin_[i + 1], vertices, triangles);
   }
+  Box whole;
+  for (const TriangleBlock& block : blocks_) whole.extend(box_of(block));
+  bounds_ = Eigen::AlignedBox3f(whole.low, whole.high);
+  // Boxes are wider than what they hold by more than a ray's arithmetic is wrong about them, as
+  // long as it starts within two sizes of the mesh.
+  constexpr float kMargin = 1e-6F;
+  const float reach = bounds_.center().norm() + 2.0F * bounds_.diagonal().norm();
+  const Vector3f margin = Vector3f::Constant(kMargin * reach);
   for (auto node = nodes_.rbegin(); node != nodes_.rend(); ++node) {
     for (std::uint32_t i = 0; i < kTreeWidth; ++i) {
       const std::uint32_t child = node->child[i];
       Box box;
       if (child != kNoChild) {
-        box = (child & kLeafBit) != 0 ? box_of(blocks_[child & ~kLeafBit]) : box_of(nodes_[child]);
+        const bool leaf = (child & kLeafBit) != 0;
+        box = leaf ? box_of(blocks_[child & ~kLeafBit]) : box_of(nodes_[child]);
+        if (leaf) box = {box.low - margin, box.high + margin};
       }
       for (int axis = 0; axis < 3; ++axis) {
         node->side[axis][i] = box.low[axis];
@@ -334,8 +343,6 @@ void TriangleTree::set_triangles(std::span<const Vector3f> vertices,
       }
     }
   }
-  const Box box = box_of(nodes_.front());
-  bounds_ = AlignedBox3f(box.low, box.high);
 }
 
 void TriangleTree::set_shading(std::span<const Vector3f> normals,

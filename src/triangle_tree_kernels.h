@@ -39,6 +39,15 @@ struct Stack {
     float keys[kTreeWidth];
     store8(keys, keys8);
     StackEntry nearest{keys[first], node.child[first]};
+    const int second = __builtin_ctz(lanes);
+    lanes &= lanes - 1;
+    if (lanes == 0) {
+      StackEntry other{keys[second], node.child[second]};
+      const bool swap = other.key < nearest.key;
+      *top++ = swap ? nearest : other;
+      return swap ? other.child : nearest.child;
+    }
+    lanes |= 1U << second;
     StackEntry* const bottom = top;
     do {
       const int lane = __builtin_ctz(lanes);
@@ -71,7 +80,8 @@ struct Ray8 {
   Vec8 origin;
   Vec8 direction;
   Vec8 inverse;
-  int near_side[3];  ///< as a place in `TreeNode::side`
+  Vec8 scaled_origin;  ///< times `inverse`
+  int near_side[3];    ///< as a place in `TreeNode::side`
 
   explicit Ray8(const TreeRay& ray)
       : origin(all_vec8(ray.origin)), direction(all_vec8(ray.direction)) {
@@ -84,6 +94,7 @@ struct Ray8 {
       near_side[axis] = inverse_direction[axis] < 0.0F ? axis + 3 : axis;
     }
     inverse = all_vec8(inverse_direction);
+    scaled_origin = {origin.x * inverse.x, origin.y * inverse.y, origin.z * inverse.z};
   }
 };
 
@@ -94,19 +105,17 @@ struct BoxHits {
 
 inline BoxHits enter_boxes(const TreeNode& node, const Ray8& ray, float bound) {
   const auto slab = [&](int side, Float8 origin, Float8 inverse) {
-    return (load8(node.side[side]) - origin) * inverse;
+    return fms8(load8(node.side[side]), inverse, origin);
   };
   const int* const near_side = ray.near_side;
-  const Float8 near_x = slab(near_side[0], ray.origin.x, ray.inverse.x);
-  const Float8 near_y = slab(near_side[1], ray.origin.y, ray.inverse.y);
-  const Float8 near_z = slab(near_side[2], ray.origin.z, ray.inverse.z);
-  const Float8 far_x = slab(3 - near_side[0], ray.origin.x, ray.inverse.x);
-  const Float8 far_y = slab(5 - near_side[1], ray.origin.y, ray.inverse.y);
-  const Float8 far_z = slab(7 - near_side[2], ray.origin.z, ray.inverse.z);
+  const Float8 near_x = slab(near_side[0], ray.scaled_origin.x, ray.inverse.x);
+  const Float8 near_y = slab(near_side[1], ray.scaled_origin.y, ray.inverse.y);
+  const Float8 near_z = slab(near_side[2], ray.scaled_origin.z, ray.inverse.z);
+  const Float8 far_x = slab(3 - near_side[0], ray.scaled_origin.x, ray.inverse.x);
+  const Float8 far_y = slab(5 - near_side[1], ray.scaled_origin.y, ray.inverse.y);
+  const Float8 far_z = slab(7 - near_side[2], ray.scaled_origin.z, ray.inverse.z);
   const Float8 entry = max8(max8(near_x, near_y), max8(near_z, all8(0.0F)));
-  // A few roundings wide, so that a ray along a box's face stays in.
-  constexpr float kWiden = 1.0F + 1e-6F;
-  const Float8 exit = min8(min8(far_x, far_y), min8(far_z, all8(bound))) * all8(kWiden);
+  const Float8 exit = min8(min8(far_x, far_y), min8(far_z, all8(bound)));
   return {entry, bits8(less_equal8(entry, exit))};
 }
 
@@ -127,7 +136,6 @@ inline void hit_block(const TriangleBlock* blocks, std::uint32_t index, const Ra
   const Float8 lowest = min8(w_a, min8(w_b, w_c));
   const Float8 highest = max8(w_a, max8(w_b, w_c));
   const Float8 inside = or8(less_equal8(zero, lowest), less_equal8(highest, zero));
-  if (bits8(inside) == 0) return;
   const Vec8 normal = cross8(ab, ca);
   const Float8 distance = dot8(a, normal) / dot8(normal, ray.direction);
   const Float8 hits =
