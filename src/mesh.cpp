@@ -180,8 +180,9 @@ Result<std::unique_ptr<MeshSurface>> MeshSurface::build(const TriangleSoup& soup
   impl->soup_vertices = soup.vertices.size();
   impl->mesh = detail::weld(soup, impl->report);
   if (impl->mesh.triangles.empty()) {
-    return refuse("expected at least one triangle with an area, found " +
-                  std::to_string(soup.triangles.size()) + " triangles without");
+    const std::string found =
+        soup.triangles.empty() ? "none" : std::to_string(soup.triangles.size()) + " without";
+    return refuse("expected at least one triangle with an area, found " + found);
   }
   detail::reorder(impl->mesh, impl->tree.build(impl->mesh.vertices, impl->mesh.triangles));
   impl->topology = detail::orient(impl->mesh, impl->report);
