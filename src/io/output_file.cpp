@@ -108,7 +108,8 @@ Result<OutputFile> OutputFile::create(const std::string& path, Encoding encoding
   Result<OpenedFile> file = open_for_writing(path);
   if (!file) return file.error();
   auto impl = std::make_unique<Impl>(path, std::move(file).value());
-  // zlib's "T" writes plain bytes. Level 4: a third faster than the usual 6, 2 % larger.
+  // zlib's "T" writes plain bytes. Level 4 takes less than half the time of the usual 6 and makes
+  // recordings 3 % larger.
   impl->stream = ::gzdopen(impl->file.descriptor, encoding == Encoding::gzip ? "wb4" : "wbT");
   if (impl->stream == nullptr) {
     ::close(impl->file.descriptor);
