@@ -184,7 +184,7 @@ TEST_F(Cli, UnwritableOutputIsNamed) {
     SCOPED_TRACE(out);
     expect_failure(nade(std::string("correct in.jsonl --object plane -o ") + out), out);
     expect_failure(nade(std::string("convert in.jsonl -o ") + out), out);
-    expect_failure(nade(std::string("synth --object plane --duration 0.1 -o ") + out), out);
+    expect_failure(nade(std::string("synth --object plane --duration 0.5 -o ") + out), out);
   }
   EXPECT_EQ(files(), (std::vector<std::string>{"file", "folder", "in.jsonl"}));
   EXPECT_TRUE(std::filesystem::is_empty(path("folder")));
@@ -196,7 +196,7 @@ TEST_F(Cli, FullDiskIsAnError) {
     SCOPED_TRACE(out);
     EXPECT_EQ(nade(std::string("convert in.jsonl ") + out).status, 1);
     EXPECT_EQ(nade(std::string("correct in.jsonl --object plane ") + out).status, 1);
-    EXPECT_EQ(nade(std::string("synth --object plane --duration 0.1 ") + out).status, 1);
+    EXPECT_EQ(nade(std::string("synth --object plane --duration 0.5 ") + out).status, 1);
   }
   expect_failure(nade("convert in.jsonl -o /dev/full"), "/dev/full");
   expect_failure(nade("measure in.jsonl in.jsonl --object plane --json /dev/full"), "/dev/full");
@@ -214,7 +214,7 @@ TEST_F(Cli, FailureKeepsWhatStoodThere) {
 
 TEST_F(Cli, PipesCarryNothingButTheRecording) {
   const Ran ran = shell(
-      "set -o pipefail 2>/dev/null; \"$NADE\" synth -o - --object sphere --duration 0.3 | "
+      "\"$NADE\" synth -o - --object sphere --duration 0.6 | "
       "\"$NADE\" correct - -o - --object sphere | \"$NADE\" convert - -o -");
   EXPECT_EQ(ran.status, 0) << ran.err;
   EXPECT_EQ(ran.err, "");
@@ -243,7 +243,7 @@ TEST_F(Cli, GzipFollowsTheName) {
 }
 
 TEST_F(Cli, SilentWhereNothingIsATerminal) {
-  EXPECT_EQ(nade("synth -o in.jsonl --object plane --duration 0.3").err, "");
+  EXPECT_EQ(nade("synth -o in.jsonl --object plane --duration 0.6").err, "");
   EXPECT_EQ(nade("correct in.jsonl -o out.jsonl --object plane").err, "");
   EXPECT_EQ(nade("measure in.jsonl out.jsonl --object plane").err, "");
   EXPECT_EQ(nade("convert out.jsonl -o again.jsonl").err, "");

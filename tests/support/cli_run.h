@@ -74,7 +74,7 @@ class CliTest : public testing::Test {
 
   /// A short stroke to work on, as a plain recording.
   void make_stroke(const std::string& name, const std::string& options = "--object plane") const {
-    const Ran ran = nade("synth -o " + name + " --duration 0.3 " + options);
+    const Ran ran = nade("synth -o " + name + " --duration 0.6 " + options);
     ASSERT_EQ(ran.status, 0) << ran.err;
   }
 
