@@ -98,6 +98,9 @@ Vec3 shading_normal(const SlotTriangle& triangle, const Vec3& weights, const Vec
   return face.squaredNorm() > 0.0 ? face.stableNormalized() : Vec3::UnitY();
 }
 
+/// What float arithmetic on squares of squares still holds, metres.
+constexpr float kLargest = 1e6F;
+
 /// A little more, so that a bound includes what lies on it.
 float round_up(double value) { return static_cast<float>(value * (1.0 + 1e-6)) + 1e-18F; }
 
@@ -157,8 +160,6 @@ Result<std::unique_ptr<MeshSurface>> MeshSurface::build(const TriangleSoup& soup
   const auto refuse = [&](const std::string& what) {
     return Error{ErrorCode::bad_value, name + ": " + what};
   };
-  // What float arithmetic on squares of squares still holds.
-  constexpr float kLargest = 1e6F;
   for (std::size_t i = 0; i < soup.vertices.size(); ++i) {
     if (!soup.vertices[i].allFinite()) {
       return refuse("vertex " + std::to_string(i) + ": expected finite coordinates");
@@ -272,7 +273,8 @@ std::optional<SurfacePoint> MeshSurface::closest_point(const Vec3& query, double
 void MeshSurface::refit(std::span<const Eigen::Vector3f> vertices) noexcept {
   NADE_ASSERT(vertices.size() == impl_->soup_vertices);
   for (std::size_t i = 0; i < impl_->mesh.vertices.size(); ++i) {
-    impl_->mesh.vertices[i] = vertices[impl_->mesh.source[i]];
+    const Eigen::Vector3f& moved = vertices[impl_->mesh.source[i]];
+    if ((moved.array().abs() <= kLargest).all()) impl_->mesh.vertices[i] = moved;
   }
   impl_->follow_vertices();
 }

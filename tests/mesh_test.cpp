@@ -339,6 +339,15 @@ TEST(Mesh, RefitEqualsRebuild) {
   }
 }
 
+TEST(Mesh, RefitLeavesWhatIsNotFinite) {
+  TriangleSoup soup = test::icosphere(0.15F, 2);
+  const auto mesh = build(soup);
+  for (std::size_t i = 0; i < soup.vertices.size(); i += 5) soup.vertices[i].y() = std::nanf("");
+  mesh->refit(soup.vertices);
+  EXPECT_LT(signed_distance(*mesh, {0.0, 0.1, 0.0}), 0.0);
+  EXPECT_GT(signed_distance(*mesh, {0.0, 0.2, 0.0}), 0.0);
+}
+
 TEST(Mesh, QueriesDoNotAllocate) {
   for (const TriangleSoup& soup : {test::bumpy_sphere(0.12F, 60, 60), broken_mesh()}) {
     const auto mesh = build(soup);

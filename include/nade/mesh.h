@@ -20,9 +20,18 @@ struct TriangleSoup {
 
 /// How a mesh tells inside from outside.
 enum class MeshSolid : std::uint8_t {
-  closed,     ///< clean and closed: the sign is exact, from angle-weighted pseudonormals
-  defective,  ///< holes, doubles, non-manifold: the sign is the generalised winding number's
-  sheet,      ///< an open surface: solid behind it, free in front and beyond its border
+  /// Clean and closed. The sign is exact, from angle-weighted pseudonormals (Baerentzen, Aanaes
+  /// 2005). Where parts may overlap (their boxes do) or touch in a vertex, pseudonormals would
+  /// see only the nearest wall, and the winding number is asked instead: the parts are one
+  /// solid, though walls within it remain surface. One part that cuts through itself is not
+  /// found out.
+  closed,
+  /// Holes, doubles, non-manifold edges. The sign is the generalised winding number's (Jacobson
+  /// et al. 2013) against one half: right up to holes, and cut across them as a film would.
+  defective,
+  /// An open surface that faces mostly one way. Solid behind it; free in front and where its
+  /// border is nearest.
+  sheet,
 };
 
 /// What was found, and mended, in the triangles of a mesh.
@@ -36,7 +45,11 @@ struct MeshReport {
   MeshSolid solid = MeshSolid::closed;
 };
 
-/// A triangle mesh as a solid. Queries are thread-safe and do not allocate.
+/// A triangle mesh as a solid. Queries are thread-safe and do not allocate. Normals run smoothly
+/// over the surface and break where faces meet at more than 40 degrees.
+///
+/// When it is built, vertices of equal position become one; neighbours are wound alike and parts
+/// outward, but a closed part wound inward within another stays: it is a cavity.
 class MeshSurface final : public Surface {
  public:
   /// Builds the search tree. Refuses a mesh without any triangle of area, with a vertex that is
@@ -50,7 +63,8 @@ class MeshSurface final : public Surface {
       const Vec3& query, double max_distance, SurfaceHint& hint) const noexcept override;
 
   /// Follows a deforming object: new positions for the vertices of the soup it was built from,
-  /// same order and number, all finite. Does not allocate. Not while another thread queries.
+  /// same order and number, all finite (one that is not stays where it was). What is a crease,
+  /// a hole or a part is not decided anew. Does not allocate. Not while another thread queries.
   void refit(std::span<const Eigen::Vector3f> vertices) noexcept;
 
   [[nodiscard]] const MeshReport& report() const;

@@ -11,8 +11,12 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <optional>
 #include <string_view>
+
+#include "gltf_accessor.h"
+#include "mesh_formats.h"
 
 namespace nade {
 namespace {
@@ -155,7 +159,32 @@ MeshFile flatten(const aiScene& scene) {
   return file;
 }
 
-Result<MeshFile> parse(const std::string& path) {
+/// The importer leaves out faces with corners that are not there, and says nothing.
+std::optional<Error> check_gltf(const std::string& path) {
+  const Result<tinygltf::Model> model = gltf::read_model(path);
+  if (!model.ok()) return model.error();
+  for (std::size_t m = 0; m < model->meshes.size(); ++m) {
+    for (const tinygltf::Primitive& primitive : model->meshes[m].primitives) {
+      const auto position = primitive.attributes.find("POSITION");
+      if (primitive.indices < 0 || position == primitive.attributes.end()) continue;
+      const auto at = static_cast<std::size_t>(position->second);
+      if (at >= model->accessors.size()) continue;
+      const auto indices = gltf::read_integers({*model, path, "indices", primitive.indices}, 1);
+      if (!indices.ok()) return indices.error();
+      const std::size_t count = model->accessors[at].count;
+      for (const std::uint32_t index : *indices) {
+        if (index < count) continue;
+        return refuse(
+            ErrorCode::bad_value, path,
+            fmt::format("mesh {}: expected vertices below {}, found {}", m, count, index));
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+/// .glb, .gltf and .obj.
+Result<MeshFile> import_scene(const std::string& path) {
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFile(path, 0);
   if (scene == nullptr || scene->mRootNode == nullptr) {
@@ -164,12 +193,38 @@ Result<MeshFile> parse(const std::string& path) {
         "expected a mesh, found what cannot be read: " + one_line(importer.GetErrorString()));
   }
   if (std::optional<Error> error = check_indices(*scene, path)) return *error;
-  if (scene->mNumMeshes != 0) scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
+  const auto has_polygons = [](const aiScene& all) {
+    return std::any_of(all.mMeshes, all.mMeshes + all.mNumMeshes, [](const aiMesh* mesh) {
+      return (mesh->mPrimitiveTypes & aiPrimitiveType_POLYGON) != 0;
+    });
+  };
+  if (has_polygons(*scene)) scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   if (scene == nullptr) {
     return refuse(ErrorCode::bad_format, path,
                   "cannot be cut into triangles: " + one_line(importer.GetErrorString()));
   }
-  MeshFile file = flatten(*scene);
+  return flatten(*scene);
+}
+
+Result<MeshFile> parse(const std::string& path) {
+  const std::string ending = lower_case(fs::path(path).extension().string());
+  if (ending == ".glb" || ending == ".gltf") {
+    if (std::optional<Error> error = check_gltf(path)) return *error;
+    return import_scene(path);
+  }
+  if (ending == ".obj") return import_scene(path);
+  std::ifstream file(path, std::ios::binary);
+  const std::string content{std::istreambuf_iterator<char>(file), {}};
+  if (file.bad()) return refuse(ErrorCode::unreadable, path, "cannot be read to its end");
+  const io::MeshText text{path, content};
+  Result<TriangleSoup> soup = ending == ".off"   ? io::read_off(text)
+                              : ending == ".ply" ? io::read_ply(text)
+                                                 : io::read_stl(text);
+  if (!soup.ok()) return soup.error();
+  return MeshFile{std::move(*soup), {}};
+}
+
+Result<MeshFile> check(MeshFile file, const std::string& path) {
   if (file.soup.triangles.empty()) {
     return refuse(ErrorCode::bad_value, path, "expected triangles, found none");
   }
@@ -187,7 +242,8 @@ Result<MeshFile> parse(const std::string& path) {
 Result<MeshFile> load_mesh(const std::string& path) {
   if (std::optional<Error> error = refuse_early(path)) return *error;
   try {
-    return parse(path);
+    Result<MeshFile> file = parse(path);
+    return file.ok() ? check(std::move(*file), path) : file;
   } catch (const std::exception& failure) {
     return refuse(ErrorCode::unreadable, path, "cannot be read: " + one_line(failure.what()));
   }

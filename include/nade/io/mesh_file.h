@@ -22,7 +22,8 @@ struct MeshFile {
 };
 
 /// Reads .glb .gltf .obj .stl .ply .off, recognised by the name's ending; scene transforms are
-/// applied. Positions are taken as metres. The error names the file and what is wrong with it.
+/// applied. Positions are taken as metres. The error names the file and what is wrong with it;
+/// only an .obj file that was cut off between two lines cannot be told from a whole one.
 [[nodiscard]] Result<MeshFile> load_mesh(const std::string& path);
 
 }  // namespace nade

@@ -1,0 +1,326 @@
+#include "nade/io/mesh_file.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "support/meshes.h"
+#include "support/random.h"
+
+namespace nade {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+template <class Value>
+void put(std::string& bytes, Value value) {
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+std::string off_text(const TriangleSoup& soup) {
+  std::ostringstream out;
+  out << "OFF\n# made by a test\n"
+      << soup.vertices.size() << ' ' << soup.triangles.size() << " 0\n";
+  for (const auto& v : soup.vertices) out << v.x() << ' ' << v.y() << ' ' << v.z() << '\n';
+  for (const auto& [a, b, c] : soup.triangles) out << "3 " << a << ' ' << b << ' ' << c << '\n';
+  return out.str();
+}
+
+std::string obj_text(const TriangleSoup& soup) {
+  std::ostringstream out;
+  for (const auto& v : soup.vertices) out << "v " << v.x() << ' ' << v.y() << ' ' << v.z() << '\n';
+  for (const auto& [a, b, c] : soup.triangles) {
+    out << "f " << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
+  }
+  return out.str();
+}
+
+std::string ply_header(const TriangleSoup& soup, const std::string& format) {
+  return "ply\nformat " + format + " 1.0\ncomment a test\nelement vertex " +
+         std::to_string(soup.vertices.size()) +
+         "\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n"
+         "element face " +
+         std::to_string(soup.triangles.size()) +
+         "\nproperty list uchar int vertex_indices\nend_header\n";
+}
+
+std::string ply_text(const TriangleSoup& soup) {
+  std::ostringstream out;
+  out << ply_header(soup, "ascii");
+  for (const auto& v : soup.vertices) out << v.x() << ' ' << v.y() << ' ' << v.z() << " 255\n";
+  for (const auto& [a, b, c] : soup.triangles) out << "3 " << a << ' ' << b << ' ' << c << '\n';
+  return out.str();
+}
+
+std::string ply_binary(const TriangleSoup& soup) {
+  std::string out = ply_header(soup, "binary_little_endian");
+  for (const auto& v : soup.vertices) {
+    for (int axis = 0; axis < 3; ++axis) put(out, v[axis]);
+    put(out, std::uint8_t{255});
+  }
+  for (const auto& triangle : soup.triangles) {
+    put(out, std::uint8_t{3});
+    for (const std::uint32_t vertex : triangle) put(out, vertex);
+  }
+  return out;
+}
+
+std::string stl_text(const TriangleSoup& soup) {
+  std::ostringstream out;
+  out << "solid box\n";
+  for (const auto& triangle : soup.triangles) {
+    out << "facet normal 0 0 0\nouter loop\n";
+    for (const std::uint32_t i : triangle) {
+      const auto& v = soup.vertices[i];
+      out << "vertex " << v.x() << ' ' << v.y() << ' ' << v.z() << '\n';
+    }
+    out << "endloop\nendfacet\n";
+  }
+  out << "endsolid box\n";
+  return out.str();
+}
+
+std::string stl_binary(const TriangleSoup& soup) {
+  std::string out(80, 'x');
+  put(out, static_cast<std::uint32_t>(soup.triangles.size()));
+  for (const auto& triangle : soup.triangles) {
+    for (int i = 0; i < 3; ++i) put(out, 0.0F);
+    for (const std::uint32_t i : triangle) {
+      for (int axis = 0; axis < 3; ++axis) put(out, soup.vertices[i][axis]);
+    }
+    put(out, std::uint16_t{0});
+  }
+  return out;
+}
+
+std::string glb_binary(const TriangleSoup& soup, const json& nodes) {
+  std::string data;
+  for (const auto& v : soup.vertices) {
+    for (int axis = 0; axis < 3; ++axis) put(data, v[axis]);
+  }
+  const std::size_t split = data.size();
+  for (const auto& triangle : soup.triangles) {
+    for (const std::uint32_t vertex : triangle) put(data, vertex);
+  }
+  const json document{
+      {"asset", {{"version", "2.0"}}},
+      {"scene", 0},
+      {"scenes", {{{"nodes", {0}}}}},
+      {"nodes", nodes},
+      {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}}}}}}},
+      {"accessors",
+       {{{"bufferView", 0},
+         {"componentType", 5126},
+         {"count", soup.vertices.size()},
+         {"type", "VEC3"},
+         {"min", {-1, -1, -1}},
+         {"max", {1, 1, 1}}},
+        {{"bufferView", 1},
+         {"componentType", 5125},
+         {"count", 3 * soup.triangles.size()},
+         {"type", "SCALAR"}}}},
+      {"bufferViews",
+       {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", split}},
+        {{"buffer", 0}, {"byteOffset", split}, {"byteLength", data.size() - split}}}},
+      {"buffers", {{{"byteLength", data.size()}}}}};
+  std::string text = document.dump();
+  text.append((4 - text.size() % 4) % 4, ' ');
+  std::string out = "glTF";
+  put(out, std::uint32_t{2});
+  put(out, static_cast<std::uint32_t>(28 + text.size() + data.size()));
+  put(out, static_cast<std::uint32_t>(text.size()));
+  out += "JSON" + text;
+  put(out, static_cast<std::uint32_t>(data.size()));
+  out += "BIN";
+  out += '\0';
+  return out + data;
+}
+
+json plain_nodes() { return {{{"mesh", 0}}}; }
+
+class MeshFiles : public ::testing::Test {
+ protected:
+  MeshFiles() { fs::create_directories(folder_); }
+  ~MeshFiles() override {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+
+  std::string write(const std::string& name, const std::string& content) {
+    const std::string path = (folder_ / name).string();
+    std::ofstream(path, std::ios::binary) << content;
+    return path;
+  }
+  /// The error's sentence without the folder; "" where it loads.
+  std::string message(const std::string& path) {
+    const Result<MeshFile> file = load_mesh(path);
+    if (file.ok()) return "";
+    const std::string text = file.error().message;
+    EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+    EXPECT_TRUE(text.starts_with(path + ": ")) << text;
+    return fs::path(path).filename().string() + text.substr(path.size());
+  }
+
+  struct Sample {
+    std::string name;
+    std::string content;
+  };
+  static std::vector<Sample> samples(const TriangleSoup& soup) {
+    return {{"a.off", off_text(soup)},
+            {"b.obj", obj_text(soup)},
+            {"c.ply", ply_text(soup)},
+            {"d.ply", ply_binary(soup)},
+            {"e.stl", stl_text(soup)},
+            {"f.stl", stl_binary(soup)},
+            {"g.glb", glb_binary(soup, plain_nodes())}};
+  }
+
+  fs::path folder_ =
+      fs::temp_directory_path() / ("nade_mesh_file_test_" + std::to_string(::getpid()));
+};
+
+TEST_F(MeshFiles, EveryFormatHoldsTheSameBox) {
+  const TriangleSoup box = test::box_mesh({0.1F, 0.2F, 0.3F});
+  for (const auto& [name, content] : samples(box)) {
+    const auto file = load_mesh(write(name, content));
+    ASSERT_TRUE(file.ok()) << file.error().message;
+    EXPECT_EQ(file->soup.triangles.size(), 12U) << name;
+    const auto mesh = MeshSurface::build(file->soup, name);
+    ASSERT_TRUE(mesh.ok()) << name;
+    EXPECT_EQ((*mesh)->report().solid, MeshSolid::closed) << name;
+    SurfaceHint hint;
+    EXPECT_NEAR((*mesh)->closest_point({0.0, 0.0, 0.25}, 1.0, hint)->signed_distance, -0.05, 1e-7);
+  }
+}
+
+TEST_F(MeshFiles, EndingsInCapitals) {
+  EXPECT_EQ(message(write("A.OFF", off_text(test::box_mesh({1, 1, 1})))), "");
+}
+
+TEST_F(MeshFiles, PolygonsBecomeTriangles) {
+  const std::string corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+  EXPECT_EQ(load_mesh(write("quad.obj", corners + "f 1 2 3 4\n"))->soup.triangles.size(), 2U);
+  const auto off =
+      load_mesh(write("quad.off", "OFF 4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3 255 0 0\n"));
+  EXPECT_EQ(off->soup.triangles.size(), 2U);
+  // The corner at (0.1, 0.1) points inward: cut there, or a triangle lies outside.
+  const auto dart =
+      load_mesh(write("dart.off", "OFF 4 1 0\n0 0 0\n1 0 0\n0.1 0.1 0\n0 1 0\n4 1 2 3 0\n"));
+  ASSERT_TRUE(dart.ok());
+  for (const auto& [a, b, c] : dart->soup.triangles) {
+    const auto& v = dart->soup.vertices;
+    EXPECT_GT((v[b] - v[a]).cross(v[c] - v[a]).z(), 0.0F);
+  }
+}
+
+TEST_F(MeshFiles, NodesMoveTurnAndMirror) {
+  const json nodes{{{"children", {1, 2, 3}}, {"translation", {1, 2, 3}}},
+                   {{"mesh", 0}},
+                   {{"mesh", 0}, {"translation", {5, 0, 0}}, {"scale", {-1, 1, 1}}},
+                   {{"name", "place-back"},
+                    {"translation", {0, 0.5, 0}},
+                    {"rotation", {0, 0.70710678, 0, 0.70710678}},
+                    {"scale", {2, 3, 4}}}};
+  const auto file =
+      load_mesh(write("scene.glb", glb_binary(test::box_mesh({.1F, .1F, .1F}), nodes)));
+  ASSERT_TRUE(file.ok()) << file.error().message;
+  const auto mesh = MeshSurface::build(file->soup, "scene");
+  EXPECT_EQ((*mesh)->report().triangles_used, 24U);
+  EXPECT_EQ((*mesh)->report().triangles_turned, 0U);
+  SurfaceHint hint;
+  EXPECT_NEAR((*mesh)->closest_point({1, 2, 3}, 1.0, hint)->signed_distance, -0.1, 1e-6);
+  EXPECT_NEAR((*mesh)->closest_point({6, 2, 3}, 1.0, hint)->signed_distance, -0.1, 1e-6);
+  ASSERT_EQ(file->places.size(), 1U);
+  EXPECT_EQ(file->places[0].name, "back");
+  EXPECT_NEAR((file->places[0].pose.position - Vec3(1, 2.5, 3)).norm(), 0.0, 1e-6);
+  EXPECT_NEAR(file->places[0].pose.rotation.norm(), 1.0, 1e-12);
+  EXPECT_NEAR((file->places[0].pose.rotation * -Vec3::UnitZ() + Vec3::UnitX()).norm(), 0.0, 1e-6);
+}
+
+TEST_F(MeshFiles, SaysWhatIsWrong) {
+  EXPECT_EQ(message((folder_ / "missing.obj").string()), "missing.obj: no such file");
+  fs::create_directories(folder_ / "folder.obj");
+  EXPECT_EQ(message((folder_ / "folder.obj").string()),
+            "folder.obj: expected a mesh file, found a directory");
+  EXPECT_EQ(message(write("mesh.xyz", "0")),
+            "mesh.xyz: expected a mesh file ending in .glb .gltf .obj .stl .ply or .off");
+  for (const std::string ending : {"glb", "gltf", "obj", "stl", "ply", "off"}) {
+    EXPECT_EQ(message(write("empty." + ending, "")),
+              "empty." + ending + ": expected a mesh, found an empty file");
+    EXPECT_NE(message(write("words." + ending, "hello\nworld\n")), "");
+  }
+  const TriangleSoup box = test::box_mesh({1, 1, 1});
+  EXPECT_EQ(message(write("short.off", off_text(box).substr(0, 60))),
+            "short.off: line 8: expected a coordinate of vertex 4 of 8, found the end of the file");
+  EXPECT_EQ(message(write("short.stl", stl_binary(box).substr(0, 300))),
+            "short.stl: expected 684 bytes for 12 triangles, found 300");
+}
+
+TEST_F(MeshFiles, NumbersThatCannotBe) {
+  TriangleSoup soup = test::box_mesh({1, 1, 1});
+  for (const float bad : {std::nanf(""), std::numeric_limits<float>::infinity()}) {
+    soup.vertices[3].x() = bad;
+    for (const auto& [name, content] : samples(soup)) {
+      EXPECT_NE(message(write(name, content)).find("expected finite coordinates"),
+                std::string::npos)
+          << name << ": " << message(write(name, content));
+    }
+  }
+  soup = test::box_mesh({1, 1, 1});
+  soup.triangles[5][1] = 99;
+  for (const auto& [name, content] :
+       {Sample{"a.off", off_text(soup)}, Sample{"c.ply", ply_text(soup)},
+        Sample{"d.ply", ply_binary(soup)}, Sample{"g.glb", glb_binary(soup, plain_nodes())}}) {
+    EXPECT_NE(message(write(name, content)).find("expected vertices below 8, found 99"),
+              std::string::npos)
+        << name;
+  }
+  EXPECT_NE(message(write("b.obj", obj_text(soup))), "");
+  for (const auto& [name, content] : samples({soup.vertices, {}})) {
+    EXPECT_NE(message(write(name, content)), "") << name;
+  }
+}
+
+TEST_F(MeshFiles, CutOffAnywhereIsRefused) {
+  for (const auto& [name, content] : samples(test::box_mesh({0.1F, 0.1F, 0.1F}))) {
+    // A text's last word may go on or not, and an OBJ file has no end of its own.
+    for (std::size_t size = 1; size + 13 < content.size(); size += 7) {
+      const std::string text = message(write(name, content.substr(0, size)));
+      EXPECT_TRUE(text != "" || name.ends_with(".obj")) << name << " cut off at " << size;
+    }
+  }
+}
+
+TEST_F(MeshFiles, DamageNeverCrashes) {
+  SCOPED_TRACE("NADE_TEST_SEED=" + std::to_string(test::seed()));
+  test::Random random;
+  for (const auto& [name, content] : samples(test::box_mesh({0.1F, 0.1F, 0.1F}))) {
+    for (int i = 0; i < 150; ++i) {
+      std::string damaged = content;
+      for (int k = 0; k < 3; ++k) {
+        damaged[random.below(static_cast<std::uint32_t>(damaged.size()))] =
+            static_cast<char>(random.below(256));
+      }
+      const auto file = load_mesh(write(name, damaged));
+      if (file.ok()) static_cast<void>(MeshSurface::build(file->soup, name));
+    }
+  }
+}
+
+TEST_F(MeshFiles, AMillionTriangles) {
+  const TriangleSoup soup = test::uv_sphere(0.15F, 708, 708);
+  const auto file = load_mesh(write("big.stl", stl_binary(soup)));
+  ASSERT_TRUE(file.ok());
+  const auto mesh = MeshSurface::build(file->soup, "big.stl");
+  EXPECT_EQ((*mesh)->report().solid, MeshSolid::closed);
+  EXPECT_TRUE(load_mesh(write("big.glb", glb_binary(soup, plain_nodes()))).ok());
+}
+
+}  // namespace
+}  // namespace nade
