@@ -219,61 +219,58 @@ std::vector<Vec3> make_strokes(const MeshSurface& mesh, const TriangleSoup& soup
   return points;
 }
 
-struct RayTimes {
-  Summary ours, embree;
+struct Comparison {
+  Summary ours;
+  Summary embree;
   int different = 0;
 };
 
-RayTimes time_rays(const MeshSurface& mesh, const EmbreeMesh& embree,
-                   const std::vector<Ray>& rays) {
-  RayTimes times;
+/// Runs both by turns, a few thousand queries each, so that whatever else the machine does falls
+/// on both.
+template <class Ours, class Theirs>
+Comparison time_by_turns(std::size_t count, Ours&& ours, Theirs&& theirs) {
+  constexpr std::size_t kTurn = 5000;
+  Stopwatch our_watch;
+  Stopwatch their_watch;
+  for (std::size_t begin = 0; begin < count; begin += kTurn) {
+    const std::size_t end = std::min(begin + kTurn, count);
+    for (std::size_t i = begin; i < end; ++i) our_watch.measure([&] { ours(i); });
+    for (std::size_t i = begin; i < end; ++i) their_watch.measure([&] { theirs(i); });
+  }
+  return {our_watch.summary(), their_watch.summary()};
+}
+
+Comparison time_rays(const MeshSurface& mesh, const EmbreeMesh& embree,
+                     const std::vector<Ray>& rays) {
   std::vector<double> ours(rays.size());
   std::vector<double> theirs(rays.size());
-  for (int round = 0; round < 2; ++round) {  // the first warms the caches
-    Stopwatch watch;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      watch.measure([&] {
+  Comparison times = time_by_turns(
+      rays.size(),
+      [&](std::size_t i) {
         const auto hit = mesh.first_hit(rays[i]);
         ours[i] = hit ? hit->distance : std::numeric_limits<double>::infinity();
-      });
-    }
-    times.ours = watch.summary();
-    Stopwatch embree_watch;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      embree_watch.measure([&] { theirs[i] = static_cast<double>(embree.first_hit(rays[i])); });
-    }
-    times.embree = embree_watch.summary();
-  }
+      },
+      [&](std::size_t i) { theirs[i] = static_cast<double>(embree.first_hit(rays[i])); });
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (!(ours[i] == theirs[i] || std::abs(ours[i] - theirs[i]) < 1e-5)) ++times.different;
   }
   return times;
 }
 
-RayTimes time_points(const MeshSurface& mesh, const EmbreeMesh& embree,
-                     const std::vector<Vec3>& points) {
-  RayTimes times;
+Comparison time_points(const MeshSurface& mesh, const EmbreeMesh& embree,
+                       const std::vector<Vec3>& points) {
   std::vector<double> ours(points.size());
   std::vector<double> theirs(points.size());
+  std::vector<SurfaceHint> hints(kPaths);
   constexpr double kReach = 2.0 * kNear_m;
-  for (int round = 0; round < 2; ++round) {
-    std::vector<SurfaceHint> hints(kPaths);
-    Stopwatch watch;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      watch.measure([&] {
+  Comparison times = time_by_turns(
+      points.size(),
+      [&](std::size_t i) {
         const auto found = mesh.closest_point(points[i], kReach, hints[i % kPaths]);
         ours[i] =
             found ? std::abs(found->signed_distance) : std::numeric_limits<double>::infinity();
-      });
-    }
-    times.ours = watch.summary();
-    Stopwatch embree_watch;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      embree_watch.measure(
-          [&] { theirs[i] = static_cast<double>(embree.distance(points[i], kReach)); });
-    }
-    times.embree = embree_watch.summary();
-  }
+      },
+      [&](std::size_t i) { theirs[i] = static_cast<double>(embree.distance(points[i], kReach)); });
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!(std::abs(ours[i] - theirs[i]) < 1e-6)) ++times.different;
   }
@@ -295,7 +292,7 @@ double build_ms(const TriangleSoup& soup) {
   return times[times.size() / 2];
 }
 
-void print(const char* what, const RayTimes& times) {
+void print(const char* what, const Comparison& times) {
   fmt::print("{:<34}{:>9.0f}{:>9.0f}{:>11.0f}{:>9.0f}{:>9.2f}{:>9.2f}{:>8}\n", what,
              times.ours.median_ns, times.ours.p99_ns, times.embree.median_ns, times.embree.p99_ns,
              times.ours.median_ns / times.embree.median_ns, times.ours.p99_ns / times.embree.p99_ns,
@@ -316,9 +313,9 @@ int main(int argc, char** argv) {
   {
     const auto mesh = build(soup);
     const EmbreeMesh embree(soup);
-    const RayTimes rays = time_rays(*mesh, embree, make_rays(soup));
+    const Comparison rays = time_rays(*mesh, embree, make_rays(soup));
     print("ray", rays);
-    const RayTimes points = time_points(*mesh, embree, make_strokes(*mesh, soup));
+    const Comparison points = time_points(*mesh, embree, make_strokes(*mesh, soup));
     print("closest point, stroking", points);
     different = rays.different + points.different;
   }
@@ -327,9 +324,9 @@ int main(int argc, char** argv) {
     const auto mesh = build(sphere);
     const EmbreeMesh embree(sphere);
     const std::string size = fmt::format(", {} triangles", sphere.triangles.size());
-    const RayTimes rays = time_rays(*mesh, embree, make_rays(sphere));
+    const Comparison rays = time_rays(*mesh, embree, make_rays(sphere));
     print(("ray" + size).c_str(), rays);
-    const RayTimes points = time_points(*mesh, embree, make_strokes(*mesh, sphere));
+    const Comparison points = time_points(*mesh, embree, make_strokes(*mesh, sphere));
     print(("closest point" + size).c_str(), points);
     different += points.different;
   }

@@ -74,27 +74,49 @@ Vec3 face_normal(const std::array<Vec3, 3>& corners) {
   return (corners[1] - corners[0]).cross(corners[2] - corners[0]);
 }
 
+/// `norm`, also where its square would be too large for a double.
+double length(const Vec3& vector) {
+  const double norm = vector.norm();
+  return std::isfinite(norm) ? norm : vector.stableNorm();
+}
+
+struct Crossing {
+  TrianglePoint at;
+  double distance;
+  bool from_behind;
+};
+
 /// Where the ray's line meets the triangle's plane, moved onto the triangle where rounding puts
 /// it beside.
-TrianglePoint meet(const std::array<Vec3, 3>& corners, const Vec3& face, const Ray& ray) {
-  const double slope = face.dot(ray.direction);
-  const double distance = slope != 0.0 ? face.dot(corners[0] - ray.origin) / slope : 0.0;
+Crossing cross(const std::array<Vec3, 3>& corners, const Ray& ray) {
+  const auto& [a, b, c] = corners;
+  const Vec3 ab = b - a;
+  const Vec3 ac = c - a;
+  const Vec3 from_a = ray.origin - a;
+  const Vec3 across = ray.direction.cross(ac);
+  const Vec3 along = from_a.cross(ab);
+  const double facing = ab.dot(across);
+  const double inverse = 1.0 / facing;
+  const double v = from_a.dot(across) * inverse;
+  const double w = ray.direction.dot(along) * inverse;
+  const double distance = ac.dot(along) * inverse;
+  const bool from_behind = facing < 0.0;
   const Vec3 point = ray.origin + distance * ray.direction;
-  const double per_area = 1.0 / face.squaredNorm();
-  const Vec3 from_a = point - corners[0];
-  const double b = face.dot(from_a.cross(corners[2] - corners[0])) * per_area;
-  const double c = face.dot((corners[1] - corners[0]).cross(from_a)) * per_area;
-  if (b >= 0.0 && c >= 0.0 && b + c <= 1.0) return {point, {1.0 - b - c, b, c}, Feature::face};
-  return nearest_on(corners, point);
+  if (v >= 0.0 && w >= 0.0 && v + w <= 1.0) {
+    return {{point, {1.0 - v - w, v, w}, Feature::face}, distance, from_behind};
+  }
+  const TrianglePoint nearest = nearest_on(corners, std::isfinite(inverse) ? point : a);
+  return {nearest, (nearest.point - ray.origin).dot(ray.direction), from_behind};
 }
 
 /// Unit; the face's where interpolation cancels out.
-Vec3 shading_normal(const SlotTriangle& triangle, const Vec3& weights, const Vec3& face) {
+Vec3 shading_normal(const SlotTriangle& triangle, const Vec3& weights) {
   const Vec3 normal = weights[0] * triangle.normals[0] + weights[1] * triangle.normals[1] +
                       weights[2] * triangle.normals[2];
-  const double length = normal.norm();
+  const double norm = normal.norm();
   constexpr double kShortest = 1e-3;
-  if (length > kShortest) return normal / length;
+  if (norm > kShortest) return normal / norm;
+  const Vec3 face = face_normal(triangle.corners);
   return face.squaredNorm() > 0.0 ? face.stableNormalized() : Vec3::UnitY();
 }
 
@@ -126,14 +148,15 @@ struct MeshSurface::Impl {
     radius = 0.5 * bounds.diagonal().cast<double>().norm();
   }
 
-  [[nodiscard]] bool is_inside(const Vec3& query, std::uint32_t triangle,
-                               const TrianglePoint& nearest, const Vec3& face) const {
+  [[nodiscard]] bool is_inside(const Vec3& query, std::uint32_t slot, const TrianglePoint& nearest,
+                               const Vec3& face) const {
     if (topology.sign == detail::SignRule::winding) {
       const Eigen::Vector3f at = query.cast<float>();
       return tree.winding({at.x(), at.y(), at.z()}) > 0.5F;
     }
     const Vec3 away = query - nearest.point;
     if (nearest.feature == Feature::face) return face.dot(away) < 0.0;
+    const std::uint32_t triangle = tree.triangle_at(slot);
     if (nearest.feature < Feature::edge_01) {
       const auto corner = static_cast<std::size_t>(nearest.feature);
       const std::uint32_t vertex = mesh.triangles[triangle][corner];
@@ -206,33 +229,33 @@ std::optional<RayHit> MeshSurface::first_hit(const Ray& ray) const noexcept {
     if (!(skipped > 0.0 && skipped <= ray.max_distance)) return std::nullopt;
   }
   const Vec3 origin = ray.origin + skipped * ray.direction;
-  if (!((origin - impl_->centre).squaredNorm() < 1e3 * kFar * impl_->radius * impl_->radius)) {
-    return std::nullopt;
-  }
+  const double miss_squared =
+      (impl_->centre - origin - (to_centre - skipped) * ray.direction).squaredNorm();
+  constexpr double kRounding = 1.0 + 1e-6;
+  if (!(miss_squared <= kRounding * impl_->radius * impl_->radius)) return std::nullopt;
   detail::TreeRay query{};
   for (int axis = 0; axis < 3; ++axis) {
     query.origin[axis] = static_cast<float>(origin[axis]);
     query.direction[axis] = static_cast<float>(ray.direction[axis]);
   }
-  query.max_distance = round_up(std::min(ray.max_distance - skipped, 1e3 * kFar * impl_->radius));
+  query.max_distance = round_up(std::min(ray.max_distance - skipped, 2.0 * kFar * impl_->radius));
   const detail::TreeHit hit = impl_->tree.first_hit(query);
   if (hit.slot == kNoSlot) return std::nullopt;
 
   const SlotTriangle triangle = impl_->tree.at(hit.slot);
-  const Vec3 face = face_normal(triangle.corners);
-  const TrianglePoint met = meet(triangle.corners, face, ray);
-  const double distance = std::max(0.0, (met.point - ray.origin).dot(ray.direction));
+  const Crossing met = cross(triangle.corners, ray);
+  const double distance = std::max(0.0, met.distance);
   if (distance > ray.max_distance) return std::nullopt;
-  const bool from_inside = face.dot(ray.direction) > 0.0;
-  Vec3 normal = shading_normal(triangle, met.weights, face);
+  Vec3 normal = shading_normal(triangle, met.at.weights);
   // Interpolation may tip a normal over to the other side of a grazing ray: lay it across.
   const double along = normal.dot(ray.direction);
-  if ((along > 0.0) != from_inside) {
+  if ((along > 0.0) != met.from_behind) {
     constexpr double kOver = 1.0 + 1e-9;
     const Vec3 across = normal - kOver * along * ray.direction;
-    normal = across.squaredNorm() > 0.0 ? across.normalized() : face.stableNormalized();
+    normal = across.squaredNorm() > 0.0 ? across.normalized()
+                                        : face_normal(triangle.corners).stableNormalized();
   }
-  return RayHit{distance, met.point, normal, from_inside};
+  return RayHit{distance, met.at.point, normal, met.from_behind};
 }
 
 std::optional<SurfacePoint> MeshSurface::closest_point(const Vec3& query, double max_distance,
@@ -241,7 +264,7 @@ std::optional<SurfacePoint> MeshSurface::closest_point(const Vec3& query, double
   // From very far, look from a nearer point in the same direction.
   Vec3 seen_from = query;
   constexpr double kFar = 1e4;
-  const double from_centre = (query - impl_->centre).stableNorm();
+  const double from_centre = length(query - impl_->centre);
   if (!(from_centre <= kFar * impl_->radius)) {
     if (from_centre - impl_->radius > max_distance) return std::nullopt;
     seen_from = impl_->centre + kFar * impl_->radius * (query - impl_->centre).stableNormalized();
@@ -262,11 +285,11 @@ std::optional<SurfacePoint> MeshSurface::closest_point(const Vec3& query, double
   const SlotTriangle triangle = impl_->tree.at(found);
   const Vec3 face = face_normal(triangle.corners);
   const TrianglePoint nearest = nearest_on(triangle.corners, query);
-  const double distance = (query - nearest.point).stableNorm();
+  const double distance = length(query - nearest.point);
   if (!(distance <= max_distance)) return std::nullopt;
   hint.element = found;
-  const bool inside = impl_->is_inside(seen_from, triangle.triangle, nearest, face);
-  return SurfacePoint{nearest.point, shading_normal(triangle, nearest.weights, face),
+  const bool inside = impl_->is_inside(seen_from, found, nearest, face);
+  return SurfacePoint{nearest.point, shading_normal(triangle, nearest.weights),
                       inside ? -distance : distance};
 }
 

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "octahedral.h"
-
 // Based on: Wald. On fast Construction of SAH-based Bounding Volume Hierarchies. 2007.
 
 namespace nade::detail {
@@ -358,22 +356,6 @@ void TriangleTree::set_shading(std::span<const Vector3f> normals,
       }
     }
   }
-}
-
-SlotTriangle TriangleTree::at(std::uint32_t slot) const noexcept {
-  const std::uint32_t index = slot / kTreeWidth;
-  const TriangleBlock& block = blocks_[index];
-  const std::uint32_t count = block_begin_[index + 1] - block_begin_[index];
-  const std::uint32_t lane = std::min(slot % kTreeWidth, count - 1);
-  const auto corner = [lane](const float(&p)[3][kTreeWidth]) {
-    return Eigen::Vector3d(p[0][lane], p[1][lane], p[2][lane]);
-  };
-  const auto normal = [&](int k) {
-    return from_octahedral({block.normal[k][0][lane], block.normal[k][1][lane]});
-  };
-  return {block_begin_[index] + lane,
-          {corner(block.a), corner(block.b), corner(block.c)},
-          {normal(0), normal(1), normal(2)}};
 }
 
 void TriangleTree::set_dipoles() {

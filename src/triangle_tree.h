@@ -1,11 +1,13 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "octahedral.h"
 #include "triangle_tree_layout.h"
 
 namespace nade::detail {
@@ -14,7 +16,6 @@ using Corners = std::array<std::uint32_t, 3>;
 
 /// A triangle as the tree keeps it.
 struct SlotTriangle {
-  std::uint32_t triangle;  ///< in the order that `TriangleTree::build` gave
   std::array<Eigen::Vector3d, 3> corners;
   std::array<Eigen::Vector3d, 3> normals;  ///< shading; as long as `from_octahedral` makes them
 };
@@ -53,7 +54,22 @@ class TriangleTree {
   [[nodiscard]] bool has(std::uint32_t slot) const noexcept {
     return slot / kTreeWidth < blocks_.size();
   }
-  [[nodiscard]] SlotTriangle at(std::uint32_t slot) const noexcept;
+  [[nodiscard]] SlotTriangle at(std::uint32_t slot) const noexcept {
+    const TriangleBlock& block = blocks_[slot / kTreeWidth];
+    const std::uint32_t lane = slot % kTreeWidth;
+    const auto corner = [lane](const float(&p)[3][kTreeWidth]) {
+      return Eigen::Vector3d(p[0][lane], p[1][lane], p[2][lane]);
+    };
+    const auto normal = [&](int k) {
+      return from_octahedral({block.normal[k][0][lane], block.normal[k][1][lane]});
+    };
+    return {{corner(block.a), corner(block.b), corner(block.c)}, {normal(0), normal(1), normal(2)}};
+  }
+  /// Which triangle that is, in the order that `build` gave.
+  [[nodiscard]] std::uint32_t triangle_at(std::uint32_t slot) const noexcept {
+    const std::uint32_t block = slot / kTreeWidth;
+    return std::min(block_begin_[block] + slot % kTreeWidth, block_begin_[block + 1] - 1);
+  }
 
   /// Generalised winding number of the point (Jacobson et al. 2013), to about 0.02.
   [[nodiscard]] float winding(const float (&point)[3]) const noexcept {
