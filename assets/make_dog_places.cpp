@@ -31,6 +31,7 @@ Vec3 straightest_back(const Body& body) {
   constexpr int kStretch = 17;  // 16 cm
   static_assert(kFrom + (kCount - 1) * kStep < kTo + 1e-9);
   std::vector<Vec3> line;
+  line.reserve(kCount);
   for (int i = 0; i < kCount; ++i)
     line.push_back(meet(body, {kFrom + i * kStep, 0.6, 0.0}, -Vec3::UnitY()));
   double best_bow = std::numeric_limits<double>::max();

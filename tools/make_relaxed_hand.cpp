@@ -96,6 +96,7 @@ nade::Status write_hands(const nade::HandPose& left, const std::string& path) {
 
 }  // namespace
 
+// A step of the build may end in an exception. NOLINTNEXTLINE(bugprone-exception-escape)
 int main(int argc, char** argv) {
   if (argc != 3) {
     std::fputs("usage: make_relaxed_hand relaxed.js OUT.jsonl\n", stderr);

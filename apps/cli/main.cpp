@@ -1,4 +1,6 @@
 #include <cstdio>
+#include <exception>
+#include <string>
 
 #include "commands.h"
 
@@ -14,9 +16,7 @@ int parse_error(const CLI::App& app, const CLI::ParseError& error) {
   return asked_for_help ? kDone : kMisuse;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app{"nade keeps a tracked hand on the surface it strokes.", "nade"};
   app.set_version_flag("--version", std::string("nade ") + NADE_VERSION);
   app.require_subcommand(1);
@@ -35,4 +35,15 @@ int main(int argc, char** argv) {
   if (status.ok()) return kDone;
   std::fprintf(stderr, "nade: %s\n", status.error().message.c_str());
   return status.error().code == nade::ErrorCode::out_of_range ? kMisuse : kCouldNot;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& unforeseen) {  // out of memory, at worst
+    std::fprintf(stderr, "nade: %s\n", unforeseen.what());
+    return kCouldNot;
+  }
 }
