@@ -13,7 +13,7 @@ constexpr double kTrunkEdge = 0.0070;
 constexpr double kLegEdge = 0.0048;
 constexpr double kPawEdge = 0.0034;
 constexpr double kHeadEdge = 0.0040;
-constexpr double kEarEdge = 0.0030;
+constexpr double kEarEdge = 0.0024;
 constexpr double kEyeEdge = 0.0014;
 constexpr double kNoseEdge = 0.0018;
 constexpr double kMouthEdge = 0.0018;
@@ -144,7 +144,7 @@ Part make_eye(const HeadFrame& head, const Side& side) {
 }
 
 Part make_ear(const HeadFrame& head, const Side& side) {
-  Part part{side.name + " ear", {}, 0.026, kEarEdge};
+  Part part{side.name + " ear", {}, 0.046, kEarEdge};
   // A soft flap: folds over at the root, widest in the middle, rounded tip; hangs a little off the
   // cheek.
   part.shapes.push_back(head.tube({{mirrored(side, 0.018, 0.024, 0.030), 0.020, 0.0120},

@@ -5,6 +5,9 @@
 #include <limits>
 #include <random>
 
+#include "nade/mesh.h"
+#include "support/allocation_counter.h"
+#include "support/meshes.h"
 #include "support/sample_hand.h"
 
 namespace nade {
@@ -275,6 +278,36 @@ TEST(Corrector, DegenerateHandsGiveFinitePoses) {
     EXPECT_TRUE(all_finite(corrector.update(hand, plane(), 0).pose));
     EXPECT_TRUE(all_finite(corrector.update(hand, sphere(), kFrame_ns).pose));
   }
+}
+
+TEST(Corrector, AMeshSphereGivesTheExactSpheresCorrections) {
+  const auto mesh = MeshSurface::build(test::uv_sphere(0.15F, 200, 201), "sphere");
+  ASSERT_TRUE(mesh.ok());
+  const Object object(**mesh, sphere().placement());
+  HandCorrector exact;
+  HandCorrector meshed;
+  for (int i = 0; i < 60; ++i) {
+    const HandPose hand = pressed_hand(0.03 * i / 60.0, rad(8.0), {0.0005 * i, 0.0, 0.0});
+    const HandPose expected = exact.update(hand, sphere(), i * kFrame_ns).pose;
+    const HandPose found = meshed.update(hand, object, i * kFrame_ns).pose;
+    EXPECT_LT(largest_difference(found, expected), 5e-4) << "frame " << i;
+    for (std::size_t k = 0; k < kJointCount; ++k) {
+      EXPECT_LT(found.joints[k].rotation.angularDistance(expected.joints[k].rotation), rad(0.5))
+          << "frame " << i << ", " << name_of(joint_at(k));
+    }
+  }
+}
+
+TEST(Corrector, AFrameAllocatesNothing) {
+  const auto mesh = MeshSurface::build(test::uv_sphere(0.15F, 60, 61), "sphere");
+  ASSERT_TRUE(mesh.ok());
+  const Object object(**mesh, sphere().placement());
+  HandCorrector corrector;
+  const HandPose hand = pressed_hand(0.02, rad(8.0));
+  const auto count = test::allocations_of([&] {
+    for (int i = 0; i < 20; ++i) (void)corrector.update(hand, object, i * kFrame_ns);
+  });
+  EXPECT_EQ(count, 0u);
 }
 
 TEST(Corrector, EveryRunGivesTheSameBits) {
