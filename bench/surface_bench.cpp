@@ -13,50 +13,22 @@
 #include <vector>
 
 #include "nade/mesh.h"
+#include "stopwatch.h"
 #include "support/meshes.h"
 #include "support/random.h"
 
 namespace {
 
 using namespace nade;
-using Clock = std::chrono::steady_clock;
+using bench::Clock;
+using bench::Stopwatch;
+using bench::Summary;
 using test::Random;
 
 constexpr int kQueries = 200000;
 constexpr int kPaths = 64;         ///< as many points as a drawn hand's patches have
 constexpr double kNear_m = 0.01;   ///< closest points are asked for this near the surface
 constexpr double kStep_m = 0.004;  ///< 0.36 m/s at 90 frames a second
-
-struct Summary {
-  double median_ns = 0.0;
-  double p99_ns = 0.0;
-};
-
-/// Time of one call, for calls made one after another; the clock's own time taken off.
-class Stopwatch {
- public:
-  Stopwatch() {
-    samples_.reserve(kQueries);
-    for (int i = 0; i < 10000; ++i) measure([] {});
-    overhead_ns_ = summary().median_ns;
-    samples_.clear();
-  }
-  template <class Action>
-  void measure(Action&& action) {
-    const auto start = Clock::now();
-    action();
-    samples_.push_back(std::chrono::duration<double, std::nano>(Clock::now() - start).count() -
-                       overhead_ns_);
-  }
-  [[nodiscard]] Summary summary() {
-    std::sort(samples_.begin(), samples_.end());
-    return {samples_[samples_.size() / 2], samples_[samples_.size() * 99 / 100]};
-  }
-
- private:
-  std::vector<double> samples_;
-  double overhead_ns_ = 0.0;
-};
 
 /// Embree's scene of one mesh, and the two queries made on it.
 class EmbreeMesh {
@@ -230,8 +202,8 @@ struct Comparison {
 template <class Ours, class Theirs>
 Comparison time_by_turns(std::size_t count, Ours&& ours, Theirs&& theirs) {
   constexpr std::size_t kTurn = 5000;
-  Stopwatch our_watch;
-  Stopwatch their_watch;
+  Stopwatch our_watch(count);
+  Stopwatch their_watch(count);
   for (std::size_t begin = 0; begin < count; begin += kTurn) {
     const std::size_t end = std::min(begin + kTurn, count);
     for (std::size_t i = begin; i < end; ++i) our_watch.measure([&] { ours(i); });
