@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
+#include <memory>
 #include <random>
+#include <vector>
 
+#include "nade/io/mesh_file.h"
 #include "nade/mesh.h"
 #include "support/allocation_counter.h"
 #include "support/meshes.h"
@@ -295,6 +299,63 @@ TEST(Corrector, AMeshSphereGivesTheExactSpheresCorrections) {
       EXPECT_LT(found.joints[k].rotation.angularDistance(expected.joints[k].rotation), rad(0.5))
           << "frame " << i << ", " << name_of(joint_at(k));
     }
+  }
+}
+
+/// The dog, and a hand that comes down on its back, strokes along it 25 mm deep and leaves.
+struct DogStroke {
+  std::unique_ptr<MeshSurface> dog;
+  std::vector<HandPose> hands;
+};
+
+std::optional<DogStroke> stroke_the_dog() {
+  const auto file = load_mesh(NADE_TEST_DOG);
+  if (!file.ok()) return std::nullopt;
+  const auto back = std::find_if(file->places.begin(), file->places.end(),
+                                 [](const MeshPlace& place) { return place.name == "back"; });
+  auto dog = MeshSurface::build(file->soup, "dog");
+  if (back == file->places.end() || !dog.ok()) return std::nullopt;
+  DogStroke stroke{std::move(dog.value()), {}};
+  constexpr int kFrames = 150;
+  for (int i = 0; i < kFrames; ++i) {
+    const double depth_m = std::min({0.025, 0.002 * i - 0.03, 0.002 * (kFrames - i) - 0.03});
+    const HandPose hand = pressed_hand(depth_m, rad(6.0), {0.0, 0.0, 0.05 - 0.0007 * i});
+    stroke.hands.push_back(moved(hand, back->pose));
+  }
+  return stroke;
+}
+
+TEST(Corrector, AFrameOnTheDogAllocatesNothing) {
+  const auto stroke = stroke_the_dog();
+  if (!stroke) GTEST_SKIP() << NADE_TEST_DOG << ": not here";
+  const Object object(*stroke->dog);
+  HandCorrector corrector;
+  std::size_t corrected = 0;
+  const auto count = test::allocations_of([&] {
+    for (std::size_t i = 0; i < stroke->hands.size(); ++i) {
+      const auto time_ns = static_cast<std::int64_t>(i) * kFrame_ns;
+      const CorrectedHand& hand = corrector.update(stroke->hands[i], object, time_ns);
+      if (hand.status == HandStatus::corrected) ++corrected;
+    }
+  });
+  EXPECT_EQ(count, 0u);
+  EXPECT_GT(corrected, stroke->hands.size() / 2);
+}
+
+TEST(Corrector, EveryRunOnTheDogGivesTheSameBits) {
+  const auto first = stroke_the_dog();
+  const auto second = stroke_the_dog();
+  if (!first || !second) GTEST_SKIP() << NADE_TEST_DOG << ": not here";
+  const Object object(*first->dog);
+  const Object built_again(*second->dog);
+  HandCorrector here;
+  HandCorrector there;
+  for (std::size_t i = 0; i < first->hands.size(); ++i) {
+    const auto time_ns = static_cast<std::int64_t>(i) * kFrame_ns;
+    const CorrectedHand& a = here.update(first->hands[i], object, time_ns);
+    const CorrectedHand& b = there.update(second->hands[i], built_again, time_ns);
+    ASSERT_EQ(a.status, b.status) << "frame " << i;
+    ASSERT_TRUE(same_bits(a.pose, b.pose)) << "frame " << i;
   }
 }
 
