@@ -1,0 +1,85 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "nade/corrector.h"
+#include "nade/draw/renderer.h"
+#include "nade/hand_mesh.h"
+#include "nade/io/object_file.h"
+
+namespace nade::draw {
+
+/// What is shown of a hand.
+enum class Shown : std::uint8_t { tracked, corrected, both };
+
+/// Diagram parts on demand.
+struct Overlays {
+  bool rays = false;         ///< from the tracked parts to the surface
+  bool contacts = false;     ///< surface points and where the parts go, p_vr
+  bool normals = false;      ///< of the surface at the contacts, and the back of the hand
+  bool held_ray = false;     ///< the palm's, as held since it went in
+  bool penetration = false;  ///< colour on the skin, by depth
+  bool labels = false;       ///< the names of all these
+  bool see_through = false;  ///< the object like glass, to see what is in it
+};
+
+/// One hand of a frame, as tracked and as corrected. `contacts` only where the correction was
+/// made here or was recorded.
+struct StagedHand {
+  HandPose tracked;
+  HandPose corrected;
+  Contacts contacts{};
+  /// Of the skin against its mesh; without a value this tracked hand's `hand_scale`.
+  std::optional<double> scale;
+};
+
+/// Everything to be shown at one moment.
+struct StageFrame {
+  std::array<std::optional<StagedHand>, 2> hands{};  ///< by index_of(Handedness)
+  Shown shown = Shown::corrected;                    ///< both: the tracked hand as a ghost
+  Overlays overlays;
+};
+
+/// The hands that are drawn, left and right.
+using HandMeshes = std::array<HandMesh, 2>;
+
+/// An object and hands, dressed, lit and put into a renderer.
+class Stage {
+ public:
+  /// `renderer` must outlive the stage.
+  [[nodiscard]] static Result<Stage> create(Renderer& renderer, const HandMeshes& hands);
+  Stage(Stage&&) noexcept;
+  Stage& operator=(Stage&&) noexcept;
+  ~Stage();
+
+  /// Shows another object. Mesh files come with their materials and textures. `object` must
+  /// outlive the stage or the next call.
+  [[nodiscard]] Status set_object(const LoadedObject& object, const Placement& placement);
+  /// Moves the object that is shown.
+  void set_placement(const Placement& placement);
+
+  /// The frame as a scene, valid until the next call; the hands' skins are posed in the renderer.
+  [[nodiscard]] const Scene& arrange(const StageFrame& frame);
+  /// The object alone.
+  [[nodiscard]] const Scene& arrange_object();
+  /// Only what touches: the hand's and the object's instances, for depth maps.
+  [[nodiscard]] Scene hand_only() const;
+  [[nodiscard]] Scene object_only() const;
+
+  /// A ball about what is worth seeing of the object near a point (all of a small object).
+  struct Bounds {
+    Vec3 center = Vec3::Zero();
+    double radius_m = 0.2;
+  };
+  [[nodiscard]] Bounds object_bounds() const;
+
+ private:
+  struct Impl;
+  explicit Stage(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace nade::draw
