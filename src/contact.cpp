@@ -109,6 +109,7 @@ std::optional<PartContact> touch(const PartRay& ray, const Object& object,
 }  // namespace
 
 Quat turn_toward(const Vec3& from, const Vec3& to, double fraction) noexcept {
+  if (!(from.squaredNorm() > 0.0)) return Quat::Identity();
   const Vec3 axis = from.cross(to);
   const double sine = axis.norm();
   const double angle = fraction * std::atan2(sine, from.dot(to));

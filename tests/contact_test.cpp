@@ -154,5 +154,9 @@ TEST(Contact, TurnTowardOppositeVectorsIsHalfATurn) {
             1e-12);
 }
 
+TEST(Contact, TurnTowardFromNowhereIsNone) {
+  EXPECT_EQ(turn_toward(Vec3::Zero(), Vec3::UnitY(), 1.0).coeffs(), Quat::Identity().coeffs());
+}
+
 }  // namespace
 }  // namespace nade

@@ -276,8 +276,12 @@ TEST(Corrector, DegenerateHandsGiveFinitePoses) {
   for (std::size_t d = 0; d < kDigitCount; ++d) {
     folded[joints_of(digit_at(d)).tip] = folded[hinge_joint(digit_at(d), 0)];
   }
+  HandPose stump = pressed_hand(0.02);
+  for (std::size_t i = 1; i <= kHingeCount; ++i) {
+    stump[hinge_joint(Digit::index, i)].position = stump[hinge_joint(Digit::index, 0)].position;
+  }
   HandPose away = test::placed_hand(generic_size_hand(), {0.0, -3.0, 0.0});
-  for (const HandPose& hand : {point, folded, away}) {
+  for (const HandPose& hand : {point, folded, stump, away}) {
     HandCorrector corrector;
     EXPECT_TRUE(all_finite(corrector.update(hand, plane(), 0).pose));
     EXPECT_TRUE(all_finite(corrector.update(hand, sphere(), kFrame_ns).pose));

@@ -79,7 +79,8 @@ struct ContactMemory {
 [[nodiscard]] PartContact moved_to(PartContact contact, const Vec3& ray_direction,
                                    const RayHit& hit) noexcept;
 
-/// The shortest rotation that takes a fraction of the way from one unit vector to another.
+/// The shortest rotation that takes a fraction of the way from one unit vector to another; none
+/// where the first has no length.
 [[nodiscard]] Quat turn_toward(const Vec3& from, const Vec3& to, double fraction) noexcept;
 
 }  // namespace nade
