@@ -10,7 +10,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <optional>
+#include <utility>
 
 namespace nade {
 namespace {
@@ -37,27 +39,60 @@ std::string resolved(const std::string& path) {
 
 /// An open file to write to, and where it is to be renamed from.
 struct OpenedFile {
-  int descriptor;
+  int descriptor = -1;
   std::string target;
-  std::string temporary;  ///< empty where written directly
+  std::string temporary{};  ///< empty where written directly, and while it has no name
+  int nameless = -1;        ///< a second descriptor, by which a file without a name gets one
 };
 
-Result<OpenedFile> open_beside(const std::string& path, const std::string& target) {
+/// Calls `make` with names beside `target` until it has made something under one of them; that
+/// name, or empty with errno set.
+template <class Make>
+std::string make_beside(const std::string& target, Make&& make) {
   for (int attempt = 0; attempt < kNameTries; ++attempt) {
-    std::string temporary = fmt::format("{}.{}-{}.part", target, ::getpid(), attempt);
-    const int descriptor =
-        ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kNewFileMode);
-    if (descriptor >= 0) return OpenedFile{descriptor, target, std::move(temporary)};
+    std::string name = fmt::format("{}.{}-{}.part", target, ::getpid(), attempt);
+    if (make(name.c_str())) return name;
     if (errno != EEXIST) break;
   }
-  return unwritable(path, errno);
+  return {};
+}
+
+std::string by_descriptor(int descriptor) { return fmt::format("/proc/self/fd/{}", descriptor); }
+
+/// A file without a name, which goes with the program however that ends; no value where the
+/// system has no such thing.
+std::optional<OpenedFile> open_nameless([[maybe_unused]] const std::string& target) {
+#if defined(O_TMPFILE)
+  const std::string folder = std::filesystem::path(target).parent_path().string();
+  const int descriptor =
+      ::open(folder.empty() ? "." : folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, kNewFileMode);
+  if (descriptor < 0) return std::nullopt;
+  const int second = ::fcntl(descriptor, F_DUPFD_CLOEXEC, 0);
+  if (second >= 0 && ::access(by_descriptor(second).c_str(), F_OK) == 0) {
+    return OpenedFile{descriptor, target, {}, second};
+  }
+  if (second >= 0) ::close(second);
+  ::close(descriptor);
+#endif
+  return std::nullopt;
+}
+
+Result<OpenedFile> open_beside(const std::string& path, const std::string& target) {
+  if (auto nameless = open_nameless(target)) return *std::move(nameless);
+  int descriptor = -1;
+  std::string temporary = make_beside(target, [&](const char* name) {
+    descriptor = ::open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kNewFileMode);
+    return descriptor >= 0;
+  });
+  if (descriptor < 0) return unwritable(path, errno);
+  return OpenedFile{descriptor, target, std::move(temporary)};
 }
 
 Result<OpenedFile> open_for_writing(const std::string& path) {
   if (path == "-") {
     const int descriptor = ::dup(STDOUT_FILENO);
     if (descriptor < 0) return unwritable(path, errno);
-    return OpenedFile{descriptor, path, {}};
+    return OpenedFile{descriptor, path};
   }
   struct stat info {};
   const std::string target = resolved(path);
@@ -66,7 +101,7 @@ Result<OpenedFile> open_for_writing(const std::string& path) {
     if (!S_ISREG(info.st_mode)) {
       const int descriptor = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
       if (descriptor < 0) return unwritable(path, errno);
-      return OpenedFile{descriptor, target, {}};
+      return OpenedFile{descriptor, target};
     }
     // A rename would replace a file that its owner made read-only.
     if (::access(target.c_str(), W_OK) != 0) return unwritable(path, errno);
@@ -88,9 +123,20 @@ struct OutputFile::Impl {
   ~Impl() { abandon(); }
 
   void remove_temporary() {
+    if (file.nameless >= 0) ::close(file.nameless);
+    file.nameless = -1;
     if (file.temporary.empty()) return;
     ::unlink(file.temporary.c_str());
     file.temporary.clear();
+  }
+  /// Gives a file without a name one beside its place, since only a name can replace another.
+  [[nodiscard]] bool name_temporary() {
+    if (file.nameless < 0) return true;
+    const std::string nameless = by_descriptor(file.nameless);
+    file.temporary = make_beside(file.target, [&](const char* name) {
+      return ::linkat(AT_FDCWD, nameless.c_str(), AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0;
+    });
+    return !file.temporary.empty();
   }
   void abandon() {
     if (stream != nullptr) ::gzclose_w(stream);
@@ -142,13 +188,15 @@ Status OutputFile::finish() {
     impl_->remove_temporary();
     return unwritable(impl_->path, error_number);
   }
-  if (impl_->file.temporary.empty()) return ok_status();
-  if (std::rename(impl_->file.temporary.c_str(), impl_->file.target.c_str()) != 0) {
+  OpenedFile& file = impl_->file;
+  if (file.temporary.empty() && file.nameless < 0) return ok_status();
+  if (!impl_->name_temporary() || std::rename(file.temporary.c_str(), file.target.c_str()) != 0) {
     const int rename_error = errno;
     impl_->remove_temporary();
     return unwritable(impl_->path, rename_error);
   }
-  impl_->file.temporary.clear();
+  file.temporary.clear();
+  impl_->remove_temporary();
   return ok_status();
 }
 

@@ -8,8 +8,9 @@
 
 namespace nade {
 
-/// A file that appears under its name whole, in `finish`, or not at all: it is written beside
-/// its place under another name and renamed. What stood there before stays until then. Standard
+/// A file that appears under its name whole, in `finish`, or not at all: it is written without a
+/// name, so that nothing is left of a program that is killed, or where the file system cannot do
+/// that beside its place under another name. What stood there before stays until then. Standard
 /// output ("-"), pipes and devices are written directly.
 class OutputFile {
  public:
