@@ -1,14 +1,20 @@
 // The built program as a person or a script meets it: exit statuses, messages, pipes, files.
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "support/cli_run.h"
+#include "support/meshes.h"
 
 namespace {
 
@@ -109,8 +115,9 @@ TEST_F(Cli, BadFrameNamesItsLine) {
   const auto& joints = frame["right"]["joints"];
   ASSERT_EQ(joints.size(), 26u);
 
-  std::vector<std::string> bad{R"({"t":)", "[]", "nonsense", R"({"t":"now"})",
-                               good[2] /* the time before once more */};
+  std::vector<std::string> bad{
+      R"({"t":)", "[]", "nonsense", R"({"t":"now"})", good[2] /* the time before once more */,
+      good[1] /* a time gone by */};
   auto short_joint = frame;
   short_joint["right"]["joints"][4].erase(7);
   bad.push_back(short_joint.dump());
@@ -175,6 +182,127 @@ TEST_F(Cli, BadMeshIsNamed) {
   }
   EXPECT_FALSE(std::filesystem::exists(path("out.jsonl")));
 }
+
+TEST_F(Cli, UnknownJointNameIsNamed) {
+  std::string text = read_file(NADE_TEST_DATA_DIR "/webxr_actions.json");
+  const std::string known = "\"ring-finger-tip\"";
+  const std::size_t at = text.find(known);
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, known.size(), "\"sixth-finger-tip\"");
+  write_file(path("six.json"), text);
+  for (const char* command : {"convert six.json -o out.jsonl", "inspect six.json",
+                              "correct six.json -o out.jsonl --object plane"}) {
+    const Ran ran = nade(command);
+    expect_failure(ran, "six.json");
+    expect_failure(ran, "sixth-finger-tip");
+  }
+  EXPECT_EQ(files(), std::vector<std::string>{"six.json"});
+}
+
+/// As a tracker may give a hand it has lost: one finger, or all of it, in one place.
+TEST_F(Cli, BonesWithoutLengthGiveFiniteHands) {
+  make_stroke("in.jsonl");
+  const auto lines = lines_of(read_file(path("in.jsonl")));
+  for (const std::size_t from : {std::size_t{6}, std::size_t{0}}) {
+    std::string text = lines[0] + "\n";
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+      auto frame = nlohmann::json::parse(lines[i]);
+      auto& joints = frame["right"]["joints"];
+      const std::size_t to = from == 0 ? 26 : 11;  // of the index finger
+      for (std::size_t joint = from; joint < to; ++joint) {
+        for (std::size_t axis = 0; axis < 3; ++axis) joints[joint][axis] = joints[from][axis];
+      }
+      text += frame.dump() + "\n";
+    }
+    write_file(path("point.jsonl"), text);
+    const Ran ran = nade("correct point.jsonl -o out.jsonl --object sphere");
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    const auto corrected = lines_of(read_file(path("out.jsonl")));
+    ASSERT_EQ(corrected.size(), lines.size());
+    for (std::size_t i = 1; i < corrected.size(); ++i) {
+      const auto frame = nlohmann::json::parse(corrected[i]);  // JSON has no other numbers
+      EXPECT_EQ(frame["right"]["joints"].size(), 26u);
+      for (const auto& joint : frame["right"]["joints"]) {
+        for (const auto& number : joint) EXPECT_TRUE(number.is_number());
+      }
+    }
+    EXPECT_EQ(nade("measure point.jsonl out.jsonl --object sphere").status, 0);
+    EXPECT_EQ(nade("inspect out.jsonl").status, 0);
+  }
+}
+
+TEST_F(Cli, PressThatCannotBeNamesTheRecording) {
+  make_stroke("in.jsonl");
+  write_file(path("bare.jsonl"), lines_of(read_file(path("in.jsonl")))[0] + "\n");
+  const std::string press = " -o out.jsonl --press 0.1 --object ";
+  expect_failure(nade("correct in.jsonl" + press + "sphere:0.01"), "in.jsonl: --press 0.1");
+  expect_failure(nade("correct bare.jsonl" + press + "plane"), "bare.jsonl: --press 0.1");
+  expect_failure(shell("\"$NADE\" correct - " + press + "plane <bare.jsonl"),
+                 "standard input: --press 0.1");
+  EXPECT_EQ(files(), (std::vector<std::string>{"bare.jsonl", "in.jsonl"}));
+}
+
+TEST_F(Cli, AKilledProgramLeavesNothing) {
+#if defined(O_TMPFILE)
+  const int nameless = ::open(path(".").c_str(), O_WRONLY | O_TMPFILE, 0600);
+  if (nameless < 0) GTEST_SKIP() << path(".") << ": no files without names here";
+  ::close(nameless);
+#else
+  GTEST_SKIP() << "no files without names on this system";
+#endif
+  write_file(path("out.jsonl"), "precious");
+  for (const char* signal : {"INT", "TERM", "KILL"}) {
+    const Ran ran = shell(std::string("timeout --signal=") + signal +
+                          " 0.4 \"$NADE\" synth --object plane --duration 86400 -o out.jsonl");
+    EXPECT_GT(ran.status, 100) << signal;
+    EXPECT_EQ(files(), std::vector<std::string>{"out.jsonl"}) << signal;
+    EXPECT_EQ(read_file(path("out.jsonl")), "precious") << signal;
+  }
+}
+
+#if !defined(__SANITIZE_ADDRESS__)
+void write_binary_stl(const std::string& path, const nade::TriangleSoup& soup) {
+  std::ofstream file(path, std::ios::binary);
+  const auto put = [&](const auto& value) {
+    file.write(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  file << std::string(80, ' ');
+  put(static_cast<std::uint32_t>(soup.triangles.size()));
+  for (const auto& triangle : soup.triangles) {
+    put(std::array<float, 3>{});
+    for (const std::uint32_t vertex : triangle) {
+      for (const float coordinate : soup.vertices[vertex]) put(coordinate);
+    }
+    put(std::uint16_t{0});
+  }
+}
+
+TEST_F(Cli, AMillionTrianglesAreAnObjectLikeAnother) {
+  const nade::TriangleSoup ball = nade::test::uv_sphere(0.15F, 708, 708);
+  ASSERT_GT(ball.triangles.size(), 1'000'000u);
+  write_binary_stl(path("ball.stl"), ball);
+  make_stroke("in.jsonl", "--object sphere");
+  const auto start = std::chrono::steady_clock::now();
+  const Ran ran = nade("correct in.jsonl -o out.jsonl --object ball.stl --at 0,-0.15,0");
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_EQ(ran.err, "");
+  ASSERT_EQ(nade("correct in.jsonl -o exact.jsonl --object sphere").status, 0);
+  const auto lines = lines_of(read_file(path("out.jsonl")));
+  const auto exact = lines_of(read_file(path("exact.jsonl")));
+  ASSERT_EQ(lines.size(), exact.size());
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const auto ours = nlohmann::json::parse(lines[i])["right"];
+    const auto expected = nlohmann::json::parse(exact[i])["right"];
+    EXPECT_EQ(ours["status"], expected["status"]) << i;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      EXPECT_NEAR(ours["joints"][0][axis].get<double>(), expected["joints"][0][axis].get<double>(),
+                  1e-4)
+          << i;
+    }
+  }
+}
+#endif
 
 TEST_F(Cli, UnwritableOutputIsNamed) {
   make_stroke("in.jsonl");

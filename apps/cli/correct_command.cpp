@@ -56,7 +56,10 @@ Status place(const CorrectArguments& arguments, const std::string& path, PlacedO
   if (!track) return track.error();
   const Result<Placement> pressed =
       press(placed.loaded, placed.placement, *track, *arguments.press_m);
-  if (!pressed) return pressed.error();
+  if (!pressed) {
+    if (pressed.error().code == ErrorCode::out_of_range) return pressed.error();
+    return Error{pressed.error().code, fmt::format("{}: {}", path, pressed.error().message)};
+  }
   placed.placement = *pressed;
   return ok_status();
 }
