@@ -3,6 +3,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "nade/corrector.h"
@@ -41,7 +42,21 @@ struct StageFrame {
   std::array<std::optional<StagedHand>, 2> hands{};  ///< by index_of(Handedness)
   Shown shown = Shown::corrected;                    ///< both: the tracked hand as a ghost
   Overlays overlays;
+  float pixel_scale = 1.0F;  ///< of line widths and labels, for pictures larger than a screen
 };
+
+/// What the diagram parts are coloured, for legends.
+struct DiagramColors {
+  Color ray;
+  Color held_ray;
+  Color start;          ///< of a ray: the tracked skin of the part
+  Color surface_point;  ///< s_j
+  Color target;         ///< p_vr_j
+  Color normal;
+  Color back;  ///< b
+  Color ghost;
+};
+[[nodiscard]] DiagramColors diagram_colors();
 
 /// The hands that are drawn, left and right.
 using HandMeshes = std::array<HandMesh, 2>;
@@ -58,6 +73,8 @@ class Stage {
   /// Shows another object. Mesh files come with their materials and textures. `object` must
   /// outlive the stage or the next call.
   [[nodiscard]] Status set_object(const LoadedObject& object, const Placement& placement);
+  /// What of the object could not be shown as its file says, a sentence each.
+  [[nodiscard]] const std::vector<std::string>& warnings() const;
   /// Moves the object that is shown.
   void set_placement(const Placement& placement);
 
@@ -69,7 +86,7 @@ class Stage {
   [[nodiscard]] Scene hand_only() const;
   [[nodiscard]] Scene object_only() const;
 
-  /// A ball about what is worth seeing of the object near a point (all of a small object).
+  /// A ball about the object where it stands.
   struct Bounds {
     Vec3 center = Vec3::Zero();
     double radius_m = 0.2;
