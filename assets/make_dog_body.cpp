@@ -145,13 +145,13 @@ Part make_eye(const HeadFrame& head, const Side& side) {
 
 Part make_ear(const HeadFrame& head, const Side& side) {
   Part part{side.name + " ear", {}, 0.046, kEarEdge};
-  // A soft flap: folds over at the root, widest in the middle, rounded tip; hangs a little off the
-  // cheek.
+  // A soft flap: folds over at the root, widest in the middle, rounded tip; hangs close to the
+  // cheek, since a gap that the joint half fills ends in a groove too sharp for these triangles.
   part.shapes.push_back(head.tube({{mirrored(side, 0.018, 0.024, 0.030), 0.020, 0.0120},
                                    {mirrored(side, 0.016, 0.028, 0.052), 0.024, 0.0095},
                                    {mirrored(side, 0.010, 0.013, 0.0705), 0.0280, 0.0078},
-                                   {mirrored(side, 0.001, -0.014, 0.0780), 0.0270, 0.0070},
-                                   {mirrored(side, -0.008, -0.040, 0.0795), 0.0175, 0.0064}},
+                                   {mirrored(side, 0.001, -0.014, 0.0720), 0.0270, 0.0070},
+                                   {mirrored(side, -0.008, -0.040, 0.0655), 0.0175, 0.0064}},
                                   Vec3::UnitX(), 0.020, 0.01, 2.2));
   return part;
 }
