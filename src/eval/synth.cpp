@@ -9,9 +9,8 @@
 #include <numbers>
 #include <utility>
 
-#include "nade/hand_mesh.h"
+#include "nade/eval/posing.h"
 #include "nade/io/assets.h"
-#include "nade/skeleton.h"
 #include "synth_rail.h"
 
 // Based on: Flash and Hogan. The Coordination of Arm Movements. 1985. (minimum jerk)
@@ -33,11 +32,6 @@ constexpr int kSizings = 8;           // to come within 0.1 % of the speed
 constexpr double kSoftStart_s = 0.4;  // of a circle or zigzag
 constexpr double kCurlPeriod_s = 2.0;
 constexpr double kCurlSpeedShare = 1.0 / 3.0;
-// A curl adds 45 degrees; the last joint follows the middle one at two thirds, as in free motion.
-constexpr double kCurlMiddle_rad = 27.0 * kPi / 180.0;
-constexpr double kCurlLast_rad = 18.0 * kPi / 180.0;
-constexpr std::size_t kMiddleHinge = 1;
-constexpr std::size_t kLastHinge = 2;
 
 constexpr std::array<std::pair<Stroke, std::string_view>, 5> kStrokeNames{{
     {Stroke::line, "line"},
@@ -96,15 +90,6 @@ Status check(const SynthOptions& options) {
     return refuse("--hand-scale", options.hand_scale, "0.3 to 3");
   }
   return ok_status();
-}
-
-/// The hand at its set size, with its palm joint at the origin, unturned.
-HandPose shaped(const HandPose& relaxed, const SynthOptions& options) {
-  const HandPose sided = relaxed.side == options.side ? relaxed : mirrored(relaxed);
-  HandPose hand = moved(sided, sided[Joint::palm].inverse());
-  for (Pose& joint : hand.joints) joint.position *= options.hand_scale;
-  for (double& radius : hand.radius) radius *= options.hand_scale;
-  return hand;
 }
 
 /// A stroke's largest pattern on a patch, for a way of `distance` metres; `size` shrinks it.
@@ -227,9 +212,7 @@ Result<HandPose> load_relaxed_hand(Handedness side) {
 struct StrokeSynth::Impl {
   SynthOptions options;
   RecordingHeader header;
-  HandPose hand;  ///< relaxed, its palm joint at the origin
-  std::array<DigitChain, kDigitCount> chains{};
-  double skin_depth_m;
+  PosableHand hand;
   Course course;
   TrackerNoise noise;
   double approach_s = 0.0;
@@ -270,31 +253,17 @@ struct StrokeSynth::Impl {
 
   /// The hand's shape: the fingers curled by `curl` (0 to 1), and what a tracker adds.
   [[nodiscard]] HandPose posed(double curl, const TrackerError& error) const {
-    HandPose pose = hand;
-    if (options.noise == NoiseModel::none && options.stroke != Stroke::curl) return pose;
-    for (std::size_t i = 0; i < kDigitCount; ++i) {
-      DigitAngles angles = chains[i].angles;
-      if (digit_at(i) != Digit::thumb) {
-        angles[kMiddleHinge].flexion += curl * kCurlMiddle_rad;
-        angles[kLastHinge].flexion += curl * kCurlLast_rad;
-      }
-      for (std::size_t hinge = 0; hinge < kHingeCount; ++hinge) {
-        angles[hinge].flexion += error.angles[i][hinge].flexion;
-        angles[hinge].abduction += error.angles[i][hinge].abduction;
-      }
-      set_digit(pose, digit_at(i), pose_chain(chains[i], angles));
-    }
-    return pose;
+    if (options.noise == NoiseModel::none && options.stroke != Stroke::curl) return hand.relaxed();
+    return hand.posed({.curl = curl}, error.angles);
   }
 
   [[nodiscard]] HandPose hand_at(double time_s) {
     const double done = progress(time_s);
     const Rail::Point point = course.rail.at(rail_x(done));
     const Vec3 normal = point.rotation * Vec3::UnitY();
-    Pose palm;
-    palm.rotation = point.rotation * Quat(Eigen::AngleAxisd(options.tilt_rad, Vec3::UnitX()));
-    palm.position =
-        point.skin + lift(time_s, done) * normal + skin_depth_m * (palm.rotation * Vec3::UnitY());
+    Pose palm =
+        hand.palm_at(point.skin + lift(time_s, done) * normal,
+                     point.rotation * Quat(Eigen::AngleAxisd(options.tilt_rad, Vec3::UnitX())));
     TrackerError error = noise.next(time_s);
     if (options.side == Handedness::left) {
       // The mirror image of the right hand's error.
@@ -333,13 +302,11 @@ Result<StrokeSynth> StrokeSynth::create(const LoadedObject& object, const Placem
                              object.spec, place->name)};
   }
   const StrokePatch patch(placed, {start->point, placement.pose.rotation * place->pose.rotation});
-  const HandPose hand = shaped(relaxed, options);
-  const double skin_depth_m =
-      generic_skin_depths()[Part::palm] * hand_length(hand) / kGenericHandLength;
+  const PosableHand hand(relaxed, options.side, options.hand_scale);
   const double approach_s = std::min(kApproachMax_s, kApproachShare * options.duration_s);
   const double stroke_s = options.duration_s - 2.0 * approach_s;
   const Vec3 palm_from_skin =
-      Eigen::AngleAxisd(options.tilt_rad, Vec3::UnitX()) * Vec3(0.0, skin_depth_m, 0.0);
+      Eigen::AngleAxisd(options.tilt_rad, Vec3::UnitX()) * Vec3(0.0, hand.palm_skin_depth_m(), 0.0);
   RecordingHeader header;
   header.source = "synth";
   header.hand_scale_known = true;
@@ -348,12 +315,8 @@ Result<StrokeSynth> StrokeSynth::create(const LoadedObject& object, const Placem
       std::make_unique<Impl>(Impl{.options = options,
                                   .header = std::move(header),
                                   .hand = hand,
-                                  .skin_depth_m = skin_depth_m,
                                   .course = plan_course(patch, options, stroke_s, palm_from_skin),
                                   .noise = TrackerNoise(options.noise, options.seed)});
-  for (std::size_t i = 0; i < kDigitCount; ++i) {
-    impl->chains[i] = measure_chain(hand, digit_at(i));
-  }
   impl->approach_s = approach_s;
   impl->curls = std::max(1.0, std::round(stroke_s / kCurlPeriod_s));
   impl->frame_count = std::llround(options.duration_s * options.rate_hz);

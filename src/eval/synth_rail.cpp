@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "nade/eval/posing.h"
+
 namespace nade {
 namespace {
 
@@ -14,7 +16,6 @@ constexpr int kBlurKnotsMax = 40;  // of one side of the blur
 constexpr int kMargin = kBlurKnotsMax + 3;
 constexpr double kNear_m = 0.1;  // how far a step may lie off the surface
 constexpr double kWalkStep_m = 0.004;
-constexpr double kPalm_m = 0.03;  // half a palm's breadth
 constexpr double kExtentMax_m = 0.12;
 constexpr double kExtentMin_m = 0.015;
 constexpr double kExtentStep_m = 0.005;
@@ -114,22 +115,7 @@ Vec3 StrokePatch::walk(const PatternPoint& point) const {
 }
 
 Vec3 StrokePatch::broad_normal(const Vec3& point) const {
-  SurfaceHint hint;
-  const auto center = object_.closest_point(point, kNear_m, hint);
-  if (!center) return place_.rotation * Vec3::UnitY();
-  const Vec3 aside = center->normal.unitOrthogonal();
-  const Vec3 forward = center->normal.cross(aside);
-  constexpr int kSpokes = 8;
-  Vec3 sum = center->normal;
-  for (int i = 0; i < 2 * kSpokes; ++i) {
-    const double angle = std::numbers::pi * i / kSpokes;
-    const double radius = (i % 2 + 1) * 0.5 * kPalm_m;
-    const auto near = object_.closest_point(
-        point + radius * (std::cos(angle) * aside + std::sin(angle) * forward), kNear_m, hint);
-    // A thin part's far side is no part of what the palm lies on.
-    if (near && near->normal.dot(center->normal) > 0.0) sum += near->normal;
-  }
-  return sum.normalized();
+  return nade::broad_normal(object_, point, place_.rotation * Vec3::UnitY());
 }
 
 Quat StrokePatch::heading(const Vec3& normal) const {
