@@ -2,13 +2,16 @@
 
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdio>
 #include <utility>
 
 namespace nade::cli {
 namespace {
 
-constexpr std::size_t kFramesAStep = 500;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kBetween{200};
 
 bool person_looks() { return ::isatty(STDERR_FILENO) == 1; }
 
@@ -29,10 +32,20 @@ Progress::~Progress() {
 
 void Progress::step() {
   ++done_;
-  if (!shown_ || done_ % kFramesAStep != 0) return;
+  if (!shown_) return;
+  const Clock::time_point now = Clock::now();
+  if (now - written_ < kBetween) return;
+  written_ = now;
   std::fprintf(stderr, "\r%s %zu", what_.c_str(), done_);
   if (total_ > 0) std::fprintf(stderr, " of %zu", total_);
   std::fputs(" frames", stderr);
+  if (total_ > done_) {
+    const double spent_s = std::chrono::duration<double>(now - start_).count();
+    const double left_s =
+        spent_s / static_cast<double>(done_) * static_cast<double>(total_ - done_);
+    std::fprintf(stderr, ", %.0f s left", left_s);
+  }
+  std::fputs("\033[K", stderr);
 }
 
 }  // namespace nade::cli

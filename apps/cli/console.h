@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <string>
 
@@ -11,7 +12,8 @@ void warn(const std::string& sentence);
 /// One line on stderr where a person is looking; nothing in a pipe.
 void say(const std::string& line);
 
-/// How far a long piece of work is, rewritten in place; only where a person is looking.
+/// How far a long piece of work is, and how long it will take still where that can be told;
+/// rewritten in place, only where a person is looking.
 class Progress {
  public:
   /// `total` frames, 0 where it is not known.
@@ -27,6 +29,8 @@ class Progress {
   std::size_t total_;
   std::size_t done_ = 0;
   bool shown_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point written_ = start_;
 };
 
 }  // namespace nade::cli

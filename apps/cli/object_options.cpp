@@ -2,32 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <charconv>
-#include <cmath>
 #include <string_view>
 
 #include "console.h"
+#include "number_list.h"
 
 namespace nade::cli {
 namespace {
-
-/// "X,Y,Z" as numbers; no value where it is anything else.
-template <std::size_t count>
-std::optional<std::array<double, count>> parse_numbers(std::string_view text) {
-  std::array<double, count> values{};
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t comma = text.find(',');
-    const bool last = i + 1 == count;
-    if (last != (comma == std::string_view::npos)) return std::nullopt;
-    const std::string_view number = text.substr(0, comma);
-    const char* const end = number.data() + number.size();
-    const auto [stop, code] = std::from_chars(number.data(), end, values[i]);
-    if (code != std::errc{} || stop != end || !std::isfinite(values[i])) return std::nullopt;
-    if (!last) text.remove_prefix(comma + 1);
-  }
-  return values;
-}
 
 [[noreturn]] void refuse(const std::string& option, const std::string& text,
                          std::string_view expected) {

@@ -1,0 +1,131 @@
+#include "picture_options.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "nade/io/assets.h"
+#include "nade/io/hand_file.h"
+#include "number_list.h"
+
+namespace nade::cli {
+namespace {
+
+constexpr int kLargestSide = 8192;
+
+struct OverlayName {
+  const char* name;
+  bool draw::Overlays::*member;
+};
+constexpr std::array<OverlayName, 7> kOverlays{{{"rays", &draw::Overlays::rays},
+                                                {"contacts", &draw::Overlays::contacts},
+                                                {"normals", &draw::Overlays::normals},
+                                                {"held-ray", &draw::Overlays::held_ray},
+                                                {"penetration", &draw::Overlays::penetration},
+                                                {"labels", &draw::Overlays::labels},
+                                                {"see-through", &draw::Overlays::see_through}}};
+
+std::string overlay_names() {
+  std::string names;
+  for (const OverlayName& overlay : kOverlays) {
+    names += fmt::format("{}{}", names.empty() ? "" : ",", overlay.name);
+  }
+  return names;
+}
+
+}  // namespace
+
+void add_hand_options(CLI::App& command, HandFiles& options) {
+  for (const Handedness side : {Handedness::left, Handedness::right}) {
+    command
+        .add_option(fmt::format("--hand-{}", name_of(side)), options.file[index_of(side)],
+                    fmt::format("a skinned {} hand of your own (.glb, .gltf), with the joints of "
+                                "WebXR by name",
+                                name_of(side)))
+        ->type_name("FILE");
+  }
+}
+
+Result<draw::HandMeshes> load_hands(const HandFiles& files) {
+  draw::HandMeshes hands;
+  for (const Handedness side : {Handedness::left, Handedness::right}) {
+    Result<std::string> path = files.file[index_of(side)]
+                                   ? Result<std::string>(*files.file[index_of(side)])
+                                   : find_asset(fmt::format("hands/{}.glb", name_of(side)));
+    if (!path) return path.error();
+    Result<HandMesh> mesh = load_hand_mesh(*path, side);
+    if (!mesh) return mesh.error();
+    hands[index_of(side)] = std::move(mesh).value();
+  }
+  return hands;
+}
+
+void add_size_option(CLI::App& command, PictureSize& size) {
+  command
+      .add_option_function<std::string>(
+          "--size",
+          [&size](const std::string& text) {
+            const auto numbers = parse_numbers<2>(text, 'x');
+            const auto whole = [](double n) {
+              return n >= 16.0 && n <= kLargestSide && n == std::round(n);
+            };
+            if (!numbers || !whole((*numbers)[0]) || !whole((*numbers)[1])) {
+              throw CLI::ValidationError(
+                  "--size", fmt::format("expected WIDTHxHEIGHT, each 16 to {}, found '{}'",
+                                        kLargestSide, text));
+            }
+            size.width = static_cast<int>((*numbers)[0]);
+            size.height = static_cast<int>((*numbers)[1]);
+          },
+          "in pixels (default 1280x720)")
+      ->type_name("WxH");
+}
+
+void add_overlay_option(CLI::App& command, draw::Overlays& overlays) {
+  command
+      .add_option_function<std::string>(
+          "--overlay",
+          [&overlays](const std::string& text) {
+            std::istringstream names(text);
+            for (std::string name; std::getline(names, name, ',');) {
+              bool known = false;
+              for (const OverlayName& overlay : kOverlays) {
+                if (name != overlay.name) continue;
+                overlays.*overlay.member = known = true;
+              }
+              if (!known) {
+                throw CLI::ValidationError(
+                    "--overlay",
+                    fmt::format("expected some of {}, found '{}'", overlay_names(), name));
+              }
+            }
+            // Skin that is in the object could not be seen otherwise.
+            if (overlays.penetration) overlays.see_through = true;
+          },
+          "what is drawn on top")
+      ->type_name(overlay_names());
+}
+
+void add_show_option(CLI::App& command, std::optional<draw::Shown>& shown) {
+  command
+      .add_option_function<std::string>(
+          "--show",
+          [&shown](const std::string& text) {
+            if (text == "raw") {
+              shown = draw::Shown::tracked;
+            } else if (text == "corrected") {
+              shown = draw::Shown::corrected;
+            } else if (text == "both") {
+              shown = draw::Shown::both;
+            } else {
+              throw CLI::ValidationError(
+                  "--show", fmt::format("expected raw, corrected or both, found '{}'", text));
+            }
+          },
+          "which hand; both: the tracked one as a ghost (default corrected)")
+      ->type_name("raw|corrected|both");
+}
+
+}  // namespace nade::cli

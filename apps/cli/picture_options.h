@@ -1,0 +1,35 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "nade/draw/stage.h"
+#include "nade/status.h"
+
+namespace nade::cli {
+
+/// --hand-left and --hand-right: skinned hands of one's own.
+struct HandFiles {
+  std::array<std::optional<std::string>, 2> file{};  ///< by index_of(Handedness)
+};
+void add_hand_options(CLI::App& command, HandFiles& options);
+
+/// The hands to draw: the files that were given, or the hand that comes with nade.
+[[nodiscard]] Result<draw::HandMeshes> load_hands(const HandFiles& files);
+
+/// --size WIDTHxHEIGHT.
+struct PictureSize {
+  int width = 1280;
+  int height = 720;
+  [[nodiscard]] double aspect() const { return static_cast<double>(width) / height; }
+};
+void add_size_option(CLI::App& command, PictureSize& size);
+
+/// --overlay: names parted by commas.
+void add_overlay_option(CLI::App& command, draw::Overlays& overlays);
+
+/// --show raw|corrected|both.
+void add_show_option(CLI::App& command, std::optional<draw::Shown>& shown);
+
+}  // namespace nade::cli

@@ -1,0 +1,122 @@
+#include "show.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "console.h"
+
+namespace nade::cli {
+namespace {
+
+/// What the headers of the recordings say.
+struct Headers {
+  std::optional<ObjectPlacing> placing;
+  bool is_corrected = false;  ///< the first recording names a method
+};
+
+Result<RecordingHeader> header_of(const std::string& path) {
+  Result<RecordingReader> reader = RecordingReader::open(path);
+  if (!reader) return reader.error();
+  return reader->header();
+}
+
+/// The corrected recording's word counts more: it says where the object stood.
+Result<Headers> read_headers(const ShowArguments& arguments) {
+  Headers headers;
+  for (const std::optional<std::string>& path :
+       {arguments.corrected, std::optional(arguments.recording)}) {
+    if (!path) continue;
+    const Result<RecordingHeader> header = header_of(*path);
+    if (!header) return header.error();
+    const auto placing = placing_from(header->unknown_json, *path);
+    if (!placing) return placing.error();
+    if (!headers.placing) headers.placing = *placing;
+    const auto json = nlohmann::json::parse(header->unknown_json, nullptr, false);
+    headers.is_corrected = json.is_object() && json.contains("method");
+  }
+  return headers;
+}
+
+Status check(const ShowArguments& arguments, const Headers& headers) {
+  if (arguments.corrected && arguments.press_m) {
+    return Error{ErrorCode::out_of_range,
+                 "--press cannot be used with CORRECTED, whose object stood where it stood"};
+  }
+  if (arguments.corrected && headers.is_corrected) {
+    return Error{ErrorCode::bad_value,
+                 fmt::format("{}: expected the tracked recording first, found a corrected one",
+                             arguments.recording)};
+  }
+  if (!arguments.object.object && !headers.placing) {
+    return Error{
+        ErrorCode::out_of_range,
+        fmt::format("--object is needed: {} names none in its header", arguments.recording)};
+  }
+  return ok_status();
+}
+
+}  // namespace
+
+void add_show_options(CLI::App& command, ShowArguments& arguments) {
+  add_object_options(command, arguments.object);
+  command
+      .add_option("--press", arguments.press_m,
+                  "moves the object so that the palms' skin lies so deep at the median")
+      ->type_name("M")
+      ->check(CLI::Range(0.0, 0.2));
+  add_hand_options(command, arguments.hands);
+}
+
+Result<Show> prepare(const ShowArguments& arguments) {
+  const Result<Headers> headers = read_headers(arguments);
+  if (!headers) return headers.error();
+  const Status fits = check(arguments, *headers);
+  if (!fits) return fits.error();
+  Result<draw::HandMeshes> hands = load_hands(arguments.hands);
+  if (!hands) return hands.error();
+  Result<Survey> seen = survey(arguments.recording, *hands);
+  if (!seen) return seen.error();
+  if (seen->glimpses.empty()) {
+    return Error{ErrorCode::bad_value,
+                 fmt::format("{}: expected a tracked hand, found none in {} frames",
+                             arguments.recording, seen->frames)};
+  }
+  Result<PlacedObject> placed = load_placed(arguments.object, headers->placing);
+  if (!placed) return placed.error();
+  if (arguments.press_m) {
+    const Result<Placement> pressed =
+        press(placed->loaded, placed->placement, seen->palms, *arguments.press_m);
+    if (!pressed) {
+      if (pressed.error().code == ErrorCode::out_of_range) return pressed.error();
+      return Error{pressed.error().code,
+                   fmt::format("{}: {}", arguments.recording, pressed.error().message)};
+    }
+    placed->placement = *pressed;
+  }
+  Performance performance{arguments.recording, arguments.corrected, options_of(arguments.method),
+                          seen->scale};
+  if (headers->is_corrected) performance.method.method = Method::none;
+  return Show{std::move(hands).value(), std::move(seen).value(), std::move(placed).value(),
+              std::move(performance), !headers->is_corrected};
+}
+
+Result<Studio> open_studio(const draw::HandMeshes& hands) {
+  Result<draw::OffscreenContext> context = draw::OffscreenContext::create();
+  if (!context) return context.error();
+  Result<draw::Renderer> made = draw::Renderer::create();
+  if (!made) return made.error();
+  auto renderer = std::make_unique<draw::Renderer>(std::move(made).value());
+  Result<draw::Stage> stage = draw::Stage::create(*renderer, hands);
+  if (!stage) return stage.error();
+  return Studio{std::move(context).value(), std::move(renderer), std::move(stage).value()};
+}
+
+Status set_object(Studio& studio, const PlacedObject& placed) {
+  const Status status = studio.stage.set_object(placed.loaded, placed.placement);
+  for (const std::string& warning : studio.stage.warnings()) warn(warning);
+  return status;
+}
+
+}  // namespace nade::cli
