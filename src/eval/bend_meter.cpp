@@ -1,6 +1,7 @@
 #include "bend_meter.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -44,18 +45,24 @@ BendMeter::FrameResult BendMeter::add(const HandPose& tracked, const HandPose& c
     first_touch_.reset();
     return {};
   }
-  take_bend_added(tracked, corrected);
-  return {take_curl({curl_of(tracked_angles), curl_of(corrected_angles)})};
+  const double added_median_deg = take_bend_added(tracked, corrected);
+  return {take_curl({curl_of(tracked_angles), curl_of(corrected_angles)}), added_median_deg};
 }
 
-void BendMeter::take_bend_added(const HandPose& tracked, const HandPose& corrected) {
+double BendMeter::take_bend_added(const HandPose& tracked, const HandPose& corrected) {
+  std::array<double, kDigitCount * kHingeCount> added_deg{};
   for (std::size_t digit = 0; digit < kDigitCount; ++digit) {
     for (std::size_t hinge = 0; hinge < kHingeCount; ++hinge) {
       const Quat before = relative_rotation(tracked, digit_at(digit), hinge);
       const Quat after = relative_rotation(corrected, digit_at(digit), hinge);
-      added_deg_.add(kDegrees * before.angularDistance(after));
+      double& added = added_deg[digit * kHingeCount + hinge];
+      added = kDegrees * before.angularDistance(after);
+      added_deg_.add(added);
     }
   }
+  auto* const middle = added_deg.begin() + added_deg.size() / 2;
+  std::nth_element(added_deg.begin(), middle, added_deg.end());
+  return *middle;
 }
 
 void BendMeter::take_limits(const HandAngles& tracked, const HandAngles& corrected) {

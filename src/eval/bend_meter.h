@@ -25,6 +25,7 @@ class BendMeter {
  public:
   struct FrameResult {
     bool curling = false;  ///< the person curls the fingers, beyond how they lay at first touch
+    std::optional<double> added_median_deg;  ///< over the joints, while pressing
   };
   FrameResult add(const HandPose& tracked, const HandPose& corrected, Pressing pressing);
   /// The next hand does not go on from the last one.
@@ -38,7 +39,7 @@ class BendMeter {
     double tracked = 0.0;
     double corrected = 0.0;
   };
-  void take_bend_added(const HandPose& tracked, const HandPose& corrected);
+  double take_bend_added(const HandPose& tracked, const HandPose& corrected);
   void take_limits(const HandAngles& tracked, const HandAngles& corrected);
   bool take_curl(const Curls& now);
 

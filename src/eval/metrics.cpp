@@ -41,8 +41,9 @@ struct MetricsMeter::Impl {
         tracked_probe(mesh, options.hand_scale),
         corrected_probe(mesh, options.hand_scale) {}
 
-  void take_skin(const SkinReading& corrected);
-  void take_gaps(const SkinReading& tracked, const SkinReading& corrected, bool curling);
+  [[nodiscard]] double take_skin(const SkinReading& corrected);
+  [[nodiscard]] std::optional<double> take_gaps(const SkinReading& tracked,
+                                                const SkinReading& corrected, bool curling);
   void take_linkage(const PastFrame& now, const Object& object);
   void break_off();
 
@@ -62,20 +63,26 @@ struct MetricsMeter::Impl {
   BendMeter bend;
 };
 
-void MetricsMeter::Impl::take_skin(const SkinReading& corrected) {
+double MetricsMeter::Impl::take_skin(const SkinReading& corrected) {
   ++pressing_frames;
-  penetration_mm.add(1e3 * std::max(0.0, -corrected.lowest));
+  const double deepest_mm = 1e3 * std::max(0.0, -corrected.lowest);
+  penetration_mm.add(deepest_mm);
   if (corrected.touches) ++touching_frames;
+  return deepest_mm;
 }
 
-void MetricsMeter::Impl::take_gaps(const SkinReading& tracked, const SkinReading& corrected,
-                                   bool curling) {
+std::optional<double> MetricsMeter::Impl::take_gaps(const SkinReading& tracked,
+                                                    const SkinReading& corrected, bool curling) {
+  std::optional<double> widest_mm;
   for (std::size_t i = 0; i < kPartCount; ++i) {
     // A palm that rises with the curl of the fingers is meant to.
     if (curling && part_at(i) == Part::palm) continue;
     if (!is_pressed(tracked, part_at(i))) continue;
-    part_gap_mm.add(1e3 * std::max(0.0, corrected.patch_lowest[i]));
+    const double gap_mm = 1e3 * std::max(0.0, corrected.patch_lowest[i]);
+    part_gap_mm.add(gap_mm);
+    widest_mm = std::max(widest_mm.value_or(0.0), gap_mm);
   }
+  return widest_mm;
 }
 
 void MetricsMeter::Impl::take_linkage(const PastFrame& now, const Object& object) {
@@ -107,32 +114,35 @@ MetricsMeter::~MetricsMeter() = default;
 
 void MetricsMeter::add_gap() { impl_->break_off(); }
 
-void MetricsMeter::add(std::int64_t time_ns, const HandPose& tracked, const HandPose& corrected,
-                       const Object& object) {
+FrameReading MetricsMeter::add(std::int64_t time_ns, const HandPose& tracked,
+                               const HandPose& corrected, const Object& object) {
   NADE_ASSERT(tracked.side == impl_->side && corrected.side == impl_->side);
   Impl& meter = *impl_;
   if (!is_usable(tracked) || !is_usable(corrected)) {
     add_gap();
-    return;
+    return {};
   }
   const bool goes_on = meter.past && time_ns > meter.past->time_ns &&
                        time_ns - meter.past->time_ns <= kLongestStep_ns;
   if (!goes_on) meter.break_off();
   ++meter.frames;
-  meter.motion.add(tracked, corrected);
+  FrameReading reading;
+  if (const auto pop_m = meter.motion.add(tracked, corrected)) reading.pop_mm = 1e3 * *pop_m;
   const SkinReading tracked_skin = meter.tracked_probe.read(tracked, object);
   const bool pressing = tracked_skin.lowest < -kPressing_m;
-  const bool curling =
-      meter.bend.add(tracked, corrected, pressing ? Pressing::yes : Pressing::no).curling;
+  const BendMeter::FrameResult bend =
+      meter.bend.add(tracked, corrected, pressing ? Pressing::yes : Pressing::no);
+  reading.bend_added_deg = bend.added_median_deg;
   if (pressing) {
     const SkinReading corrected_skin = meter.corrected_probe.read(corrected, object);
-    meter.take_skin(corrected_skin);
-    meter.take_gaps(tracked_skin, corrected_skin, curling);
+    reading.penetration_mm = meter.take_skin(corrected_skin);
+    reading.part_gap_mm = meter.take_gaps(tracked_skin, corrected_skin, bend.curling);
   }
   const PastFrame now{time_ns, tracked[Joint::palm].position, corrected[Joint::palm].position,
                       is_pressed(tracked_skin, Part::palm)};
   meter.take_linkage(now, object);
   meter.past = now;
+  return reading;
 }
 
 void MetricsMeter::merge(const MetricsMeter& other) {

@@ -13,20 +13,22 @@ constexpr double kPopFactor = 3.0;
 
 }  // namespace
 
-void MotionMeter::add(const HandPose& tracked, const HandPose& corrected) {
+std::optional<double> MotionMeter::add(const HandPose& tracked, const HandPose& corrected) {
   Frame now;
   for (std::size_t i = 0; i < kJointCount; ++i) {
     now.tracked[i] = tracked.joints[i].position;
     now.corrected[i] = corrected.joints[i].position;
   }
-  if (known_ >= 1) take_step(now, past_[0]);
+  std::optional<double> pop_m;
+  if (known_ >= 1) pop_m = take_step(now, past_[0]);
   if (known_ >= 2) take_bend(now, past_[0], past_[1]);
   past_[1] = past_[0];
   past_[0] = now;
   known_ = std::min<std::size_t>(known_ + 1, 2);
+  return pop_m;
 }
 
-void MotionMeter::take_step(const Frame& now, const Frame& before) {
+double MotionMeter::take_step(const Frame& now, const Frame& before) {
   double tracked_m = 0.0;
   double corrected_m = 0.0;
   for (std::size_t i = 0; i < kJointCount; ++i) {
@@ -36,6 +38,7 @@ void MotionMeter::take_step(const Frame& now, const Frame& before) {
   if (tracked_m >= kSlowest_m) amplification_.add(corrected_m / tracked_m);
   const double pop_m = std::max(0.0, corrected_m - kPopFactor * tracked_m);
   pop_max_m_ = std::max(pop_max_m_.value_or(0.0), pop_m);
+  return pop_m;
 }
 
 void MotionMeter::take_bend(const Frame& now, const Frame& before, const Frame& earlier) {

@@ -21,7 +21,8 @@ struct Motion {
 /// Compares how both hands move from frame to frame, over all 26 joints.
 class MotionMeter {
  public:
-  void add(const HandPose& tracked, const HandPose& corrected);
+  /// Gives how far the corrected hand popped in this step, metres; no value in the first frame.
+  std::optional<double> add(const HandPose& tracked, const HandPose& corrected);
   /// The next hand does not go on from the last one.
   void break_off();
   void merge(const MotionMeter& other);
@@ -33,7 +34,7 @@ class MotionMeter {
     Positions tracked;
     Positions corrected;
   };
-  void take_step(const Frame& now, const Frame& before);
+  double take_step(const Frame& now, const Frame& before);
   void take_bend(const Frame& now, const Frame& before, const Frame& earlier);
 
   std::array<Frame, 2> past_{};  ///< the last frame, then the one before

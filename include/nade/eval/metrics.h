@@ -65,6 +65,15 @@ struct MetricsOptions {
   double hand_scale = 1.0;
 };
 
+/// What one frame alone shows, for a display that follows a hand. No value where there was nothing
+/// to measure.
+struct FrameReading {
+  std::optional<double> penetration_mm;  ///< of the deepest corrected skin, while pressing
+  std::optional<double> part_gap_mm;     ///< the widest, of the parts pressed
+  std::optional<double> bend_added_deg;  ///< median over the finger joints, while pressing
+  std::optional<double> pop_mm;
+};
+
 /// Measures one hand of a recording, a frame at a time, in memory that does not grow.
 class MetricsMeter {
  public:
@@ -77,8 +86,8 @@ class MetricsMeter {
   /// The hand in the next frame, as tracked and as corrected; times increase. A pose that is not
   /// `is_usable` counts as `add_gap`, and so does a pause of more than 200 ms before this frame.
   /// The object may move between frames.
-  void add(std::int64_t time_ns, const HandPose& tracked, const HandPose& corrected,
-           const Object& object);
+  FrameReading add(std::int64_t time_ns, const HandPose& tracked, const HandPose& corrected,
+                   const Object& object);
 
   /// The next frame has no such hand: no motion is measured across it.
   void add_gap();
