@@ -13,8 +13,10 @@ using Action = std::function<Status()>;
 /// Each adds one subcommand; when it is parsed, `action` becomes what it does.
 void add_convert(CLI::App& app, Action& action);
 void add_correct(CLI::App& app, Action& action);
+void add_figure(CLI::App& app, Action& action);
 void add_inspect(CLI::App& app, Action& action);
 void add_measure(CLI::App& app, Action& action);
+void add_render(CLI::App& app, Action& action);
 void add_synth(CLI::App& app, Action& action);
 
 }  // namespace nade::cli

@@ -16,14 +16,27 @@ struct Choice {
   T value;
 };
 
-/// An option that takes one of a few names.
+const std::vector<Choice<Method>>& methods() {
+  static const std::vector<Choice<Method>> kMethods{{"paper", Method::paper},
+                                                    {"none", Method::none}};
+  return kMethods;
+}
+
+/// The names of some choices, parted by |.
 template <class T>
-CLI::Option* add_choice(CLI::App& command, const std::string& name, T& value,
-                        const std::vector<Choice<T>>& choices, const std::string& help) {
+std::string names_of(const std::vector<Choice<T>>& choices) {
   std::string names;
   for (const Choice<T>& choice : choices) {
     names += fmt::format("{}{}", names.empty() ? "" : "|", choice.name);
   }
+  return names;
+}
+
+/// An option that takes one of a few names.
+template <class T>
+CLI::Option* add_choice(CLI::App& command, const std::string& name, T& value,
+                        const std::vector<Choice<T>>& choices, const std::string& help) {
+  const std::string names = names_of(choices);
   return command
       .add_option_function<std::string>(
           name,
@@ -97,8 +110,7 @@ void add_open_points(CLI::App& command, CorrectorOptions& options) {
 }  // namespace
 
 void add_method_options(CLI::App& command, MethodOptions& options) {
-  add_choice<Method>(command, "--method", options.corrector.method,
-                     {{"paper", Method::paper}, {"none", Method::none}},
+  add_choice<Method>(command, "--method", options.corrector.method, methods(),
                      "how to correct (default paper)");
   CLI::Option* const literal = command.add_flag("--paper-literal", options.literal,
                                                 "every open point as the paper's text has it");
@@ -113,6 +125,15 @@ const CorrectorOptions& options_of(const MethodOptions& options) {
   static const CorrectorOptions kLiteral = paper_literal();
   return options.literal ? kLiteral : options.corrector;
 }
+
+std::optional<Method> method_from_name(std::string_view name) {
+  for (const Choice<Method>& choice : methods()) {
+    if (name == choice.name) return choice.value;
+  }
+  return std::nullopt;
+}
+
+std::string method_names() { return names_of(methods()); }
 
 std::string method_name(const MethodOptions& options) {
   if (options.literal) return "paper_literal";

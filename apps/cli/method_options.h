@@ -1,7 +1,9 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "nade/corrector.h"
 
@@ -18,6 +20,10 @@ void add_method_options(CLI::App& command, MethodOptions& options);
 
 /// What to make correctors with.
 [[nodiscard]] const CorrectorOptions& options_of(const MethodOptions& options);
+
+/// A method by its name on the command line, and all the names, parted by |.
+[[nodiscard]] std::optional<Method> method_from_name(std::string_view name);
+[[nodiscard]] std::string method_names();
 
 /// "none", "paper", or "paper_literal".
 [[nodiscard]] std::string method_name(const MethodOptions& options);

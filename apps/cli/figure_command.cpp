@@ -1,0 +1,245 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "commands.h"
+#include "figure_sheet.h"
+#include "nade/draw/image.h"
+#include "nade/eval/synth.h"
+#include "spooled_input.h"
+
+namespace nade::cli {
+namespace {
+
+struct FigureArguments {
+  ShowArguments show;  ///< `recording` empty: the bundled strokes
+  std::string name;    ///< of the recording, as the person gave it
+  std::string output;
+  std::vector<std::string> methods{"paper"};
+  std::optional<std::size_t> frame;
+  std::optional<double> time_s;
+};
+
+Error misuse(std::string message) { return {ErrorCode::out_of_range, std::move(message)}; }
+
+/// Where the frames of a row come from, one after another.
+using Frames = std::function<Result<std::optional<RecordedFrame>>()>;
+
+Result<std::vector<CorrectorOptions>> corrector_options(const FigureArguments& arguments) {
+  std::vector<CorrectorOptions> all;
+  for (const std::string& name : arguments.methods) {
+    const std::optional<Method> method = method_from_name(name);
+    if (!method) {
+      return misuse(fmt::format("--method: expected some of {}, parted by commas, found '{}'",
+                                method_names(), name));
+    }
+    all.emplace_back();
+    all.back().method = *method;
+  }
+  return all;
+}
+
+/// Plays the frames to the one at `time_ns`, each method with its own memory.
+Status play(const Frames& next, std::int64_t time_ns, const std::array<double, 2>& scale,
+            const std::vector<CorrectorOptions>& methods, FigureRow& row) {
+  const Object object = row.placed.object();
+  std::vector<std::array<HandCorrector, 2>> correctors;
+  for (const CorrectorOptions& options : methods) {
+    correctors.push_back({HandCorrector(options), HandCorrector(options)});
+  }
+  row.by_method.resize(methods.size());
+  while (true) {
+    const Result<std::optional<RecordedFrame>> frame = next();
+    if (!frame) return frame.error();
+    if (!frame->has_value() || (*frame)->time_ns > time_ns) return ok_status();
+    for (std::size_t m = 0; m < methods.size(); ++m) {
+      for (std::size_t side = 0; side < 2; ++side) {
+        auto& staged = row.by_method[m][side];
+        staged.reset();
+        if (!(*frame)->hands[side]) continue;
+        const HandPose& tracked = (*frame)->hands[side]->pose;
+        const CorrectedHand& hand = correctors[m][side].update(tracked, object, (*frame)->time_ns);
+        staged = draw::StagedHand{tracked, hand.pose, hand.contacts, scale[side]};
+      }
+    }
+  }
+}
+
+/// A stroke that comes with nade, at the frame that shows most.
+struct BundledStroke {
+  const char* title;
+  const char* object;
+  const char* place;
+  double tilt_deg;
+  /// Of the time that the palm is at its depth.
+  double moment;
+};
+constexpr std::array<BundledStroke, 3> kBundled{{{"Plane", "plane", "", 0.0, 0.30},
+                                                 {"Sphere", "sphere", "", 0.0, 0.25},
+                                                 {"Dog", "dog", "", 0.0, 0.30}}};
+constexpr double kBundledDepth = 0.02;
+
+Result<FigureRow> bundled_row(const BundledStroke& stroke, const draw::HandMeshes& meshes,
+                              const std::vector<CorrectorOptions>& methods) {
+  Result<LoadedObject> object = load_object(stroke.object);
+  if (!object) return object.error();
+  SynthOptions options;
+  options.place = stroke.place;
+  options.depth_m = kBundledDepth;
+  options.tilt_rad = stroke.tilt_deg * 3.14159265358979 / 180.0;
+  options.duration_s = 4.0;
+  const Result<HandPose> relaxed = load_relaxed_hand(options.side);
+  if (!relaxed) return relaxed.error();
+  Result<StrokeSynth> synth = StrokeSynth::create(*object, {}, *relaxed, options);
+  if (!synth) return synth.error();
+  const double at_s =
+      synth->stroke_begin_s() + stroke.moment * (synth->stroke_end_s() - synth->stroke_begin_s());
+  const double scale = hand_scale(meshes[index_of(options.side)], *relaxed);
+  FigureRow row{stroke.title, {std::move(object).value(), {}}, {}};
+  const Frames next = [&synth]() -> Result<std::optional<RecordedFrame>> { return synth->next(); };
+  const Status played =
+      play(next, static_cast<std::int64_t>(1e9 * at_s), {scale, scale}, methods, row);
+  if (!played) return played.error();
+  return row;
+}
+
+/// The time that is shown of the person's own recording.
+Result<std::int64_t> time_of(const FigureArguments& arguments, const Show& show) {
+  const std::int64_t first = show.survey.first_ns;
+  if (arguments.time_s) {
+    return first + static_cast<std::int64_t>(std::llround(1e9 * *arguments.time_s));
+  }
+  if (arguments.frame) {
+    const auto time = time_of_frame(show.performance.recording, *arguments.frame);
+    if (!time) return time.error();
+    if (*time) return **time;
+    return misuse(fmt::format("--frame: expected 0 to {}, the frames of {}, found {}",
+                              show.survey.frames - 1, show.performance.recording,
+                              *arguments.frame));
+  }
+  return deepest_press(show.survey, show.placed.object()).value_or(first);
+}
+
+Result<FigureContent> own_content(const FigureArguments& arguments, Show show,
+                                  const std::vector<CorrectorOptions>& methods) {
+  if (!show.has_tracked) {
+    return Error{ErrorCode::bad_value,
+                 fmt::format("{}: expected a tracked recording, found a corrected one",
+                             show.performance.recording)};
+  }
+  const Result<std::int64_t> time = time_of(arguments, show);
+  if (!time) return time.error();
+  Result<RecordingReader> reader = RecordingReader::open(show.performance.recording);
+  if (!reader) return reader.error();
+  FigureContent content;
+  content.caption = fmt::format("{}, {:.2f} s after its first frame", arguments.name,
+                                1e-9 * static_cast<double>(*time - show.survey.first_ns));
+  const std::string& spec = show.placed.loaded.spec;
+  const std::string title = spec.substr(spec.find_last_of('/') + 1);
+  content.rows.push_back({title, std::move(show.placed), {}});
+  const Status played = play([&reader] { return reader->next(); }, *time, show.survey.scale,
+                             methods, content.rows.front());
+  if (!played) return played.error();
+  return content;
+}
+
+Result<FigureContent> bundled_content(const draw::HandMeshes& hands,
+                                      const std::vector<CorrectorOptions>& methods) {
+  FigureContent content;
+  content.caption = fmt::format(
+      "A stroke along each object with the palm's skin {:.0f} mm below the surface; plane, sphere "
+      "of 150 mm radius, and a dog.",
+      1e3 * kBundledDepth);
+  for (const BundledStroke& stroke : kBundled) {
+    Result<FigureRow> row = bundled_row(stroke, hands, methods);
+    if (!row) return row.error();
+    content.rows.push_back(std::move(row).value());
+  }
+  return content;
+}
+
+Status run_on(const FigureArguments& arguments) {
+  const Result<std::vector<CorrectorOptions>> methods = corrector_options(arguments);
+  if (!methods) return methods.error();
+  Result<draw::HandMeshes> hands = load_hands(arguments.show.hands);
+  if (!hands) return hands.error();
+  Result<FigureContent> content = Error{};
+  if (arguments.show.recording.empty()) {
+    content = bundled_content(*hands, *methods);
+  } else {
+    Result<Show> show = prepare(arguments.show);
+    if (!show) return show.error();
+    content = own_content(arguments, std::move(show).value(), *methods);
+  }
+  if (!content) return content.error();
+  content->methods = arguments.methods;
+  content->explained = 0;
+  for (std::size_t m = 0; m < arguments.methods.size(); ++m) {
+    // The paper's own terms are what the last column explains.
+    if ((*methods)[m].method == Method::paper) content->explained = m;
+  }
+  Result<Studio> studio = open_studio(*hands);
+  if (!studio) return studio.error();
+  const Result<draw::Image> sheet = draw_figure(*content, *studio);
+  if (!sheet) return sheet.error();
+  return draw::save_png(arguments.output, *sheet);
+}
+
+Status run_figure(FigureArguments arguments) {
+  const ObjectOptions& object = arguments.show.object;
+  const bool own = !arguments.show.recording.empty();
+  if (!own && (object.object || object.at || object.turn || object.scale ||
+               arguments.show.press_m || arguments.frame || arguments.time_s)) {
+    return misuse(
+        "the bundled strokes have their objects: expected a recording IN before "
+        "--object, --at, --turn, --scale, --press, --frame or --time");
+  }
+  if (arguments.frame && arguments.time_s) return misuse("--frame and --time exclude each other");
+  arguments.name = arguments.show.recording;
+  if (arguments.show.recording != "-") return run_on(arguments);
+  arguments.name = "standard input";
+  const Result<SpooledInput> spooled = SpooledInput::read();
+  if (!spooled) return spooled.error();
+  arguments.show.recording = spooled->path();
+  const Status status = run_on(arguments);
+  return status.ok() ? status : Status(spooled->renamed(status.error()));
+}
+
+}  // namespace
+
+void add_figure(CLI::App& app, Action& action) {
+  CLI::App* const command = app.add_subcommand(
+      "figure", "Draws a sheet: object, hand without and with correction, explained");
+  const auto arguments = std::make_shared<FigureArguments>();
+  command
+      ->add_option("input", arguments->show.recording,
+                   "a recording of your own; - is stdin (default strokes of plane, sphere and dog)")
+      ->type_name("IN");
+  command->add_option("-o,--output", arguments->output, "the picture to write")
+      ->type_name("SHEET.png")
+      ->required();
+  command
+      ->add_option("--method", arguments->methods,
+                   "what column (iii) shows; several, parted by commas, give several columns")
+      ->type_name(method_names())
+      ->delimiter(',')
+      ->capture_default_str();
+  command->add_option("--frame", arguments->frame, "of this frame, from 0 (default the deepest)")
+      ->type_name("N");
+  command->add_option("--time", arguments->time_s, "so long after the first frame")
+      ->type_name("S")
+      ->check(CLI::Range(0.0, 1e6));
+  add_show_options(*command, arguments->show);
+  command->callback(
+      [&action, arguments] { action = [arguments] { return run_figure(*arguments); }; });
+}
+
+}  // namespace nade::cli
