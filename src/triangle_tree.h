@@ -8,11 +8,10 @@
 #include <vector>
 
 #include "octahedral.h"
+#include "triangle_tree_build.h"
 #include "triangle_tree_layout.h"
 
 namespace nade::detail {
-
-using Corners = std::array<std::uint32_t, 3>;
 
 /// A triangle as the tree keeps it.
 struct SlotTriangle {

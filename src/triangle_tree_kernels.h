@@ -136,6 +136,7 @@ inline void hit_block(const TriangleBlock* blocks, std::uint32_t index, const Ra
   const Float8 lowest = min8(w_a, min8(w_b, w_c));
   const Float8 highest = max8(w_a, max8(w_b, w_c));
   const Float8 inside = or8(less_equal8(zero, lowest), less_equal8(highest, zero));
+  if (bits8(inside) == 0) return;  // before the division
   const Vec8 normal = cross8(ab, ca);
   const Float8 distance = dot8(a, normal) / dot8(normal, ray.direction);
   const Float8 hits =
