@@ -23,14 +23,6 @@ constexpr double kThinnestTip_m = 0.003;
 constexpr double kThickestTip_m = 0.015;
 constexpr double kSameRadius_m = 1e-4;
 
-double largest_motion(const HandPose& from, const HandPose& to) {
-  double motion = 0.0;
-  for (std::size_t i = 0; i < kJointCount; ++i) {
-    motion = std::max(motion, (to.joints[i].position - from.joints[i].position).norm());
-  }
-  return motion;
-}
-
 /// `first` as a change on top of `second`.
 Correction difference(const Correction& first, const Correction& second) {
   Correction result;
@@ -92,25 +84,21 @@ std::optional<SkinDepths> believable_radii(const HandPose& hand) noexcept {
   return depths;
 }
 
-HandPose apply(const Correction& correction, const HandPose& tracked) noexcept {
-  HandPose hand = apply(correction.palm, tracked);
-  for (std::size_t d = 0; d < kDigitCount; ++d) {
-    if (correction.bend[d].isZero(0.0)) continue;
-    const DigitChain chain = measure_chain(hand, digit_at(d));
-    const DigitFreedoms bent = freedoms_of(chain.angles) + correction.bend[d];
-    set_digit(hand, chain.digit, pose_chain(chain, with_freedoms(chain.angles, bent)));
-  }
-  return hand;
-}
-
 HandCorrector::HandCorrector(const CorrectorOptions& options) : options_(options) {
   NADE_ASSERT(options.skin_hand_length_m > 0.0);
   NADE_ASSERT(options.release_s >= 0.0 && options.release_s <= 1.0);
   NADE_ASSERT(options.contact.full_turn_depth_m >= 0.0);
+  NADE_ASSERT(options.settle.softness_depth_m > 0.0);
+  if (options.method != Method::nade) return;
+  for (const Handedness side : {Handedness::left, Handedness::right}) {
+    NADE_ASSERT(flesh_of(side).side == side && flesh_of(side).hand_length_m > 0.0);
+    settle_memory_[index_of(side)] = settle_memory(flesh_of(side));
+  }
 }
 
 void HandCorrector::reset() noexcept {
-  memory_ = {};
+  contact_memory_ = {};
+  for (SettleMemory& memory : settle_memory_) memory.tracked.reset();
   last_.reset();
   release_start_ns_.reset();
   hand_length_m_ = 0.0;
@@ -125,9 +113,16 @@ const CorrectedHand& HandCorrector::update(const HandPose& tracked, const Object
     return result_;
   }
   if (options_.method == Method::none) return result_;
-
   start_frame(tracked, time_ns);
-  Contacts contacts = find_contacts(tracked, skin_of(tracked), object, options_.contact, memory_);
+  if (options_.method == Method::paper) correct_by_paper(tracked, object, time_ns);
+  if (options_.method == Method::nade) settle(tracked, object, time_ns);
+  return result_;
+}
+
+void HandCorrector::correct_by_paper(const HandPose& tracked, const Object& object,
+                                     std::int64_t time_ns) noexcept {
+  Contacts contacts =
+      find_contacts(tracked, skin_of(tracked), object, options_.contact, contact_memory_);
   const SeatedPalm seated = seat_palm(tracked, contacts[index_of(Part::palm)]);
   const LaidFingers laid = lay_fingers(tracked, seated.hand, object, options_.fingers, contacts);
 
@@ -136,7 +131,23 @@ const CorrectedHand& HandCorrector::update(const HandPose& tracked, const Object
   result_.ray_turn_rad = laid.ray_turn_rad;
   if (touches(contacts)) result_.status = HandStatus::corrected;
   release(tracked, {seated.correction, laid.bend}, time_ns);
-  return result_;
+}
+
+void HandCorrector::settle(const HandPose& tracked, const Object& object,
+                           std::int64_t time_ns) noexcept {
+  const HandFlesh& flesh = flesh_of(tracked.side);
+  const double since_last_s = last_ ? seconds(last_->time_ns, time_ns) : 0.0;
+  const SettledHand settled =
+      settle_hand(tracked, flesh, hand_length_m_ / flesh.hand_length_m, object, since_last_s,
+                  options_.settle, settle_memory_[index_of(tracked.side)]);
+  result_.pose = settled.hand;
+  result_.contacts = settled.contacts;
+  if (settled.touches) {
+    result_.status = HandStatus::corrected;
+  } else if (settled.corrected) {
+    result_.status = HandStatus::released;
+  }
+  last_ = Frame{tracked, settled.correction, time_ns};
 }
 
 void HandCorrector::start_frame(const HandPose& tracked, std::int64_t time_ns) noexcept {
@@ -144,15 +155,21 @@ void HandCorrector::start_frame(const HandPose& tracked, std::int64_t time_ns) n
   if (!goes_on) reset();
   // What was touched before a gap says nothing about where the hand comes back.
   if (last_ && seconds(last_->time_ns, time_ns) > std::max(options_.release_s, 0.1)) {
-    memory_ = {};
+    contact_memory_ = {};
+    for (SettleMemory& memory : settle_memory_) memory.tracked.reset();
     last_.reset();
     release_start_ns_.reset();
   }
-}
-
-SkinDepths HandCorrector::skin_of(const HandPose& tracked) noexcept {
   frames_ = std::min(frames_ + 1, kLengthFrames);
   hand_length_m_ += (hand_length(tracked) - hand_length_m_) / static_cast<double>(frames_);
+}
+
+const HandFlesh& HandCorrector::flesh_of(Handedness side) const noexcept {
+  const std::shared_ptr<const HandFlesh>& own = options_.flesh[index_of(side)];
+  return own ? *own : generic_flesh(side);
+}
+
+SkinDepths HandCorrector::skin_of(const HandPose& tracked) const noexcept {
   SkinDepths skin = options_.skin;
   for (double& depth_m : skin.depth_m) depth_m *= hand_length_m_ / options_.skin_hand_length_m;
   if (options_.skin_source == SkinSource::mesh) return skin;

@@ -135,6 +135,7 @@ struct MeshSurface::Impl {
   detail::MeshNormals normals;
   detail::TriangleTree tree;
   std::size_t soup_vertices = 0;
+  std::uint64_t shape = 0;  ///< counts the refits
   Vec3 centre = Vec3::Zero();
   double radius = 0.0;
 
@@ -300,7 +301,10 @@ void MeshSurface::refit(std::span<const Eigen::Vector3f> vertices) noexcept {
     if ((moved.array().abs() <= kLargest).all()) impl_->mesh.vertices[i] = moved;
   }
   impl_->follow_vertices();
+  ++impl_->shape;
 }
+
+std::uint64_t MeshSurface::shape() const noexcept { return impl_->shape; }
 
 const MeshReport& MeshSurface::report() const { return impl_->report; }
 

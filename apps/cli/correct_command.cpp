@@ -101,8 +101,8 @@ Result<Summary> correct_all(const CorrectArguments& arguments, const std::string
       arguments.output, corrected_header(reader->header(), arguments, placed));
   if (!writer) return writer.error();
   const Object object = placed.object();
-  std::array<HandCorrector, 2> correctors{HandCorrector(options_of(arguments.method)),
-                                          HandCorrector(options_of(arguments.method))};
+  const CorrectorOptions options = options_of(arguments.method);
+  std::array<HandCorrector, 2> correctors{HandCorrector(options), HandCorrector(options)};
   Summary summary;
   Progress progress("corrected", 0);
   while (true) {

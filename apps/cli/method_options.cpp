@@ -5,6 +5,8 @@
 #include <numbers>
 #include <vector>
 
+#include "nade/io/hand_file.h"
+
 namespace nade::cli {
 namespace {
 
@@ -17,8 +19,8 @@ struct Choice {
 };
 
 const std::vector<Choice<Method>>& methods() {
-  static const std::vector<Choice<Method>> kMethods{{"paper", Method::paper},
-                                                    {"none", Method::none}};
+  static const std::vector<Choice<Method>> kMethods{
+      {"nade", Method::nade}, {"paper", Method::paper}, {"none", Method::none}};
   return kMethods;
 }
 
@@ -121,9 +123,14 @@ void add_method_options(CLI::App& command, MethodOptions& options) {
   }
 }
 
-const CorrectorOptions& options_of(const MethodOptions& options) {
-  static const CorrectorOptions kLiteral = paper_literal();
-  return options.literal ? kLiteral : options.corrector;
+CorrectorOptions options_of(const MethodOptions& options) {
+  if (options.literal) return paper_literal();
+  CorrectorOptions corrector = options.corrector;
+  if (corrector.method != Method::nade) return corrector;
+  for (const Handedness side : {Handedness::left, Handedness::right}) {
+    corrector.flesh[index_of(side)] = find_flesh(side);
+  }
+  return corrector;
 }
 
 std::optional<Method> method_from_name(std::string_view name) {
@@ -137,7 +144,10 @@ std::string method_names() { return names_of(methods()); }
 
 std::string method_name(const MethodOptions& options) {
   if (options.literal) return "paper_literal";
-  return options.corrector.method == Method::none ? "none" : "paper";
+  for (const Choice<Method>& choice : methods()) {
+    if (options.corrector.method == choice.value) return choice.name;
+  }
+  return "";
 }
 
 }  // namespace nade::cli

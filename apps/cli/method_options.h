@@ -19,13 +19,13 @@ struct MethodOptions {
 void add_method_options(CLI::App& command, MethodOptions& options);
 
 /// What to make correctors with.
-[[nodiscard]] const CorrectorOptions& options_of(const MethodOptions& options);
+[[nodiscard]] CorrectorOptions options_of(const MethodOptions& options);
 
 /// A method by its name on the command line, and all the names, parted by |.
 [[nodiscard]] std::optional<Method> method_from_name(std::string_view name);
 [[nodiscard]] std::string method_names();
 
-/// "none", "paper", or "paper_literal".
+/// A method's name, or "paper_literal".
 [[nodiscard]] std::string method_name(const MethodOptions& options);
 
 }  // namespace nade::cli

@@ -1,17 +1,21 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "nade/contact.h"
+#include "nade/correction.h"
 #include "nade/fingers.h"
-#include "nade/palm.h"
+#include "nade/settle.h"
 
 namespace nade {
 
 enum class Method : std::uint8_t {
   none,   ///< the tracked hand, bit for bit
   paper,  ///< contact rays, seated palm, laid fingers (2023)
+  nade,   ///< the whole hand settles on the surface
 };
 
 /// Where the length of a fingertip's c_j comes from. The palm's is always the mesh's.
@@ -32,6 +36,10 @@ struct CorrectorOptions {
   /// What is left of a correction where it cannot be continuous (an edge, a teleport, tracking
   /// lost and found) fades over this time. Seconds, 0 (at once) to 1.
   double release_s = 0.2;
+  SettleOptions settle;
+  /// Method `nade`: what can touch of each hand, by index_of(Handedness). Measure it on your own
+  /// hand mesh if you draw another than the generic hand, which empty ones stand for.
+  std::array<std::shared_ptr<const HandFlesh>, 2> flesh;
 };
 
 /// All open points as the paper's bare text has them, for comparison.
@@ -48,15 +56,6 @@ struct CorrectedHand {
   Contacts contacts{};
   std::array<double, kDigitCount> ray_turn_rad{};
 };
-
-/// A correction as a change of the tracked hand: the palm's motion and what the digits bend.
-struct Correction {
-  PalmCorrection palm;
-  HandBend bend = no_bend();
-};
-
-/// The tracked hand with a correction applied.
-[[nodiscard]] HandPose apply(const Correction& correction, const HandPose& tracked) noexcept;
 
 /// Corrects one hand, frame by frame. Keep one for each hand; it is the only thing with memory.
 class HandCorrector {
@@ -83,12 +82,17 @@ class HandCorrector {
   };
 
   void start_frame(const HandPose& tracked, std::int64_t time_ns) noexcept;
-  [[nodiscard]] SkinDepths skin_of(const HandPose& tracked) noexcept;
+  void correct_by_paper(const HandPose& tracked, const Object& object,
+                        std::int64_t time_ns) noexcept;
+  void settle(const HandPose& tracked, const Object& object, std::int64_t time_ns) noexcept;
+  [[nodiscard]] const HandFlesh& flesh_of(Handedness side) const noexcept;
+  [[nodiscard]] SkinDepths skin_of(const HandPose& tracked) const noexcept;
   void release(const HandPose& tracked, const Correction& correction,
                std::int64_t time_ns) noexcept;
 
   CorrectorOptions options_;
-  ContactMemory memory_;
+  ContactMemory contact_memory_;
+  std::array<SettleMemory, 2> settle_memory_;  ///< by index_of(Handedness)
   CorrectedHand result_;
   std::optional<Frame> last_;
   double hand_length_m_ = 0.0;  ///< mean over the frames so far: bones do not grow

@@ -67,6 +67,9 @@ class MeshSurface final : public Surface {
   /// a hole or a part is not decided anew. Does not allocate. Not while another thread queries.
   void refit(std::span<const Eigen::Vector3f> vertices) noexcept;
 
+  /// Counts the refits.
+  [[nodiscard]] std::uint64_t shape() const noexcept override;
+
   [[nodiscard]] const MeshReport& report() const;
 
  private:

@@ -50,6 +50,10 @@ class Surface {
   /// The nearest point within `max_distance` of the query, and the query's signed distance.
   [[nodiscard]] virtual std::optional<SurfacePoint> closest_point(
       const Vec3& query, double max_distance, SurfaceHint& hint) const noexcept = 0;
+
+  /// Another number whenever the surface has another shape, so that answers are not remembered
+  /// beyond it. The default is for surfaces that keep theirs.
+  [[nodiscard]] virtual std::uint64_t shape() const noexcept { return 0; }
 };
 
 /// The half-space below y = 0.

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "nade/hand_mesh.h"
+
+namespace nade {
+
+/// A point of the flesh or on its skin, carried by up to four joints as the drawn hand's vertices
+/// are.
+struct FleshPoint {
+  std::array<std::uint8_t, 4> joints{};  ///< as index_of(Joint)
+  std::array<double, 4> weights{};       ///< sum to 1, largest first
+  std::array<Vec3, 4> local{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(),
+                            Vec3::Zero()};  ///< in each joint's frame, the mesh's own size
+};
+
+/// A piece of the hand about the size of a fingertip.
+struct FleshPad {
+  FleshPoint middle;        ///< in the flesh
+  std::uint32_t first = 0;  ///< of `HandFlesh::skin`: the points that stick out
+  std::uint32_t count = 0;
+  double radius_m = 0.0;     ///< no skin of it is farther from the middle, in the bind pose
+  std::optional<Part> part;  ///< whose contact patch it belongs to
+};
+
+/// All of a hand that can touch: its skin, in pieces. Metres, the mesh's own size.
+struct HandFlesh {
+  Handedness side = Handedness::right;
+  double hand_length_m = kGenericHandLength;  ///< of the mesh, wrist to middle knuckle
+  std::vector<FleshPad> pads;
+  std::vector<FleshPoint> skin;
+};
+
+/// Cuts a hand mesh into pads. A part's pads are the skin around the point where the part's
+/// palmar axis leaves the flesh, as the metric `part_gap` has it. Of each pad only the points that
+/// stick out are kept.
+[[nodiscard]] HandFlesh measure_flesh(const HandMesh& mesh);
+
+/// As `measure_flesh` gives for the generic hand, the left the mirror image of the right: for
+/// programs that load no hand mesh.
+[[nodiscard]] const HandFlesh& generic_flesh(Handedness side);
+
+}  // namespace nade

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "nade/contact.h"
+#include "nade/correction.h"
+#include "nade/flesh.h"
+
+namespace nade {
+
+/// Friction to be seen, not felt: the drawn hand lags the person's along the surface, then slips.
+struct VisibleFriction {
+  double coefficient = 0.0;     ///< lag over pressing depth at which it slips, 0 (none) to 2
+  double kinetic = 0.6;         ///< share of that lag which is left while it slips, 0 to 1
+  double longest_lag_m = 0.03;  ///< whatever the depth
+};
+
+/// How the whole hand settles on a surface.
+struct SettleOptions {
+  /// The skin sinks in this far at the most, metres: 0 for a hard object, up to 0.02.
+  double softness_m = 0.0;
+  /// Pressing so deep makes it sink by two thirds of that, metres, above 0.
+  double softness_depth_m = 0.02;
+  VisibleFriction friction;
+};
+
+/// The local plane that stands in for the surface near a pad. Object frame.
+struct PadPlane {
+  Vec3 middle = Vec3::Zero();  ///< of the pad, for which it was found
+  Vec3 point = Vec3::Zero();
+  Vec3 normal = Vec3::UnitY();  ///< unit, out of the solid
+};
+
+/// What is remembered of a pad.
+struct PadMemory {
+  SurfaceHint hint;
+  std::optional<PadPlane> plane;
+  /// Where it was too far to matter: nothing within `clearance_m` of there. Object frame.
+  Vec3 middle = Vec3::Zero();
+  double clearance_m = 0.0;
+};
+
+/// One point of the skin against one plane: how its gap grows with the hand's freedoms.
+struct ContactRow {
+  Eigen::Matrix<double, 6, 1> wrist = Eigen::Matrix<double, 6, 1>::Zero();  ///< shift, turn
+  DigitFreedoms bend = DigitFreedoms::Zero();
+  std::optional<Digit> digit;  ///< whose bend counts
+  double gap_m = 0.0;
+  double pull = 0.0;  ///< above 0: not kept out but drawn near, with this weight
+};
+
+/// What settle_hand remembers of a hand from frame to frame, and room to work in.
+struct SettleMemory {
+  Correction correction;             ///< the last frame's
+  std::optional<HandPose> tracked;   ///< the last frame's
+  const Surface* surface = nullptr;  ///< the last frame's; only its address counts
+  Placement object;                  ///< the last frame's
+  std::uint64_t shape = 0;           ///< the surface's, in the last frame
+  Vec3 push = Vec3::Zero();          ///< unit, the way the object pushes; zero in the air
+  double height_m = 0.0;             ///< of the drawn hand over the tracked one along `push`
+  Vec3 carried = Vec3::Zero();       ///< along the surface, from what was stroked so far
+  Vec3 lag = Vec3::Zero();           ///< along the surface, by friction
+  bool slips = false;
+  std::vector<PadMemory> pads;
+  std::vector<ContactRow> rows;
+};
+
+/// A memory with room for a hand's pads; settle_hand allocates nothing then.
+[[nodiscard]] SettleMemory settle_memory(const HandFlesh& flesh);
+
+/// The hand settled on the surface.
+struct SettledHand {
+  HandPose hand;  ///< bit for bit the tracked one where nothing is to be corrected
+  Correction correction;
+  Contacts contacts{};
+  bool touches = false;
+  bool corrected = false;  ///< or touched until just now: the hand is not the tracked one
+};
+
+/// The whole hand out of the object, with the least change of the tracked pose: palm, knuckles,
+/// every phalanx and the thumb's ball. Goes on from the last frame's answer. `scale` is the
+/// tracked hand's size over the flesh's; `seconds` the time since the last frame.
+[[nodiscard]] SettledHand settle_hand(const HandPose& tracked, const HandFlesh& flesh, double scale,
+                                      const Object& object, double seconds,
+                                      const SettleOptions& options, SettleMemory& memory) noexcept;
+
+}  // namespace nade

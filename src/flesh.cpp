@@ -1,0 +1,188 @@
+#include "nade/flesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+namespace nade {
+namespace {
+
+/// Skin that one bone leads is cut every so far along the bone, then until no piece is wider.
+constexpr double kSegment_m = 0.014;
+constexpr double kWidest_m = 0.024;
+/// Where all of a pad's skin faces one way, its middle lies this deep in the flesh.
+constexpr double kMiddleDepth_m = 0.006;
+/// A skin point sticks out if it is the farthest in one of so many directions.
+constexpr int kDirections = 40;
+
+// What belongs to a part's patch: as in the metric `part_gap`.
+constexpr double kPalmPatch_m = 0.022;
+constexpr double kTipPatch_m = 0.007;
+constexpr double kPatchFacing = 0.5;  // cosine
+
+using Indices = std::vector<std::size_t>;
+using JointWeights = std::array<double, kJointCount>;
+
+Vec3 position_of(const HandMesh& mesh, std::size_t vertex) {
+  return mesh.vertices[vertex].cast<double>();
+}
+
+Vec3 normal_of(const HandMesh& mesh, std::size_t vertex) {
+  return mesh.normals[vertex].cast<double>();
+}
+
+/// One vertex for each position.
+Indices distinct_vertices(const HandMesh& mesh) {
+  std::map<std::array<float, 3>, std::size_t> seen;
+  Indices result;
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const Eigen::Vector3f& v = mesh.vertices[i];
+    if (seen.emplace(std::array{v.x(), v.y(), v.z()}, i).second) result.push_back(i);
+  }
+  return result;
+}
+
+JointWeights weights_of(const HandMesh& mesh, std::size_t vertex) {
+  JointWeights weights{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    weights[mesh.bones[vertex][k]] += static_cast<double>(mesh.weights[vertex][k]);
+  }
+  return weights;
+}
+
+std::size_t heaviest(const JointWeights& weights) {
+  return static_cast<std::size_t>(std::max_element(weights.begin(), weights.end()) -
+                                  weights.begin());
+}
+
+std::optional<Part> patch_of(const HandMesh& mesh, const SkinDepths& depths, std::size_t vertex) {
+  for (std::size_t i = 0; i < kPartCount; ++i) {
+    const Part part = part_at(i);
+    const Pose& joint = mesh.bind[joint_of(part)];
+    const Vec3 palmar = joint.rotation * -Vec3::UnitY();
+    const Vec3 middle = joint.position + depths[part] * palmar;
+    const double radius_m = part == Part::palm ? kPalmPatch_m : kTipPatch_m;
+    const bool near = (position_of(mesh, vertex) - middle).norm() < radius_m;
+    if (near && normal_of(mesh, vertex).dot(palmar) > kPatchFacing) return part;
+  }
+  return std::nullopt;
+}
+
+FleshPoint attach(const HandPose& bind, const Vec3& position, JointWeights weights) {
+  FleshPoint point;
+  double sum = 0.0;
+  for (std::size_t k = 0; k < point.joints.size(); ++k) {
+    const std::size_t joint = heaviest(weights);
+    point.joints[k] = static_cast<std::uint8_t>(joint);
+    point.weights[k] = weights[joint];
+    point.local[k] = bind.joints[joint].inverse().apply(position);
+    sum += weights[joint];
+    weights[joint] = 0.0;
+  }
+  for (double& weight : point.weights) weight /= sum;
+  return point;
+}
+
+/// Splits vertices so that none is farther than `kWidest_m` from the first of its piece: each next
+/// piece starts at the vertex that is farthest from all firsts.
+std::vector<Indices> split(const HandMesh& mesh, const Indices& vertices) {
+  std::vector<Indices> pieces;
+  std::vector<double> distance(vertices.size(), std::numeric_limits<double>::infinity());
+  std::vector<std::size_t> owner(vertices.size(), 0);
+  std::size_t first = 0;
+  do {
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      const double to_first =
+          (position_of(mesh, vertices[i]) - position_of(mesh, vertices[first])).norm();
+      if (to_first >= distance[i]) continue;
+      distance[i] = to_first;
+      owner[i] = pieces.size();
+    }
+    pieces.emplace_back();
+    first = static_cast<std::size_t>(std::max_element(distance.begin(), distance.end()) -
+                                     distance.begin());
+  } while (distance[first] > kWidest_m);
+  for (std::size_t i = 0; i < vertices.size(); ++i) pieces[owner[i]].push_back(vertices[i]);
+  return pieces;
+}
+
+/// The vertices that are farthest out in some direction, evenly spread (a Fibonacci sphere).
+Indices outermost(const HandMesh& mesh, const Indices& vertices) {
+  std::vector<bool> kept(vertices.size(), false);
+  for (int i = 0; i < kDirections; ++i) {
+    const double y = 1.0 - (2.0 * i + 1.0) / kDirections;
+    const double around = i * std::numbers::pi * (3.0 - std::sqrt(5.0));
+    const double r = std::sqrt(1.0 - y * y);
+    const Vec3 direction(r * std::cos(around), y, r * std::sin(around));
+    const auto farthest =
+        std::max_element(vertices.begin(), vertices.end(), [&](std::size_t a, std::size_t b) {
+          return direction.dot(position_of(mesh, a)) < direction.dot(position_of(mesh, b));
+        });
+    kept[static_cast<std::size_t>(farthest - vertices.begin())] = true;
+  }
+  Indices result;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    if (kept[i]) result.push_back(vertices[i]);
+  }
+  return result;
+}
+
+void add_pad(const HandMesh& mesh, const Indices& vertices, std::optional<Part> part,
+             HandFlesh& flesh) {
+  Vec3 middle = Vec3::Zero();
+  JointWeights weights{};
+  const double share = 1.0 / static_cast<double>(vertices.size());
+  for (const std::size_t vertex : vertices) {
+    middle += share * (position_of(mesh, vertex) - kMiddleDepth_m * normal_of(mesh, vertex));
+    const JointWeights own = weights_of(mesh, vertex);
+    for (std::size_t j = 0; j < kJointCount; ++j) weights[j] += own[j];
+  }
+  FleshPad& pad = flesh.pads.emplace_back();
+  pad.part = part;
+  pad.middle = attach(mesh.bind, middle, weights);
+  pad.first = static_cast<std::uint32_t>(flesh.skin.size());
+  for (const std::size_t vertex : outermost(mesh, vertices)) {
+    const Vec3 position = position_of(mesh, vertex);
+    pad.radius_m = std::max(pad.radius_m, (position - middle).norm());
+    flesh.skin.push_back(attach(mesh.bind, position, weights_of(mesh, vertex)));
+  }
+  pad.count = static_cast<std::uint32_t>(flesh.skin.size()) - pad.first;
+}
+
+}  // namespace
+
+HandFlesh measure_flesh(const HandMesh& mesh) {
+  HandFlesh flesh;
+  flesh.side = mesh.side;
+  flesh.hand_length_m = hand_length(mesh.bind);
+  const SkinDepths depths = measure_skin_depths(mesh);
+  struct Group {
+    int part;  ///< -1: of no patch
+    int joint;
+    int segment;
+    auto operator<=>(const Group&) const = default;
+  };
+  std::map<Group, Indices> groups;
+  for (const std::size_t vertex : distinct_vertices(mesh)) {
+    const std::size_t joint = heaviest(weights_of(mesh, vertex));
+    Group group{-1, static_cast<int>(joint), 0};
+    if (const std::optional<Part> part = patch_of(mesh, depths, vertex)) {
+      group.part = static_cast<int>(*part);
+      if (part == Part::palm) group.joint = 0;
+    } else {
+      const Vec3 local = mesh.bind.joints[joint].inverse().apply(position_of(mesh, vertex));
+      group.segment = static_cast<int>(std::floor(-local.z() / kSegment_m));
+    }
+    groups[group].push_back(vertex);
+  }
+  for (const auto& [group, vertices] : groups) {
+    std::optional<Part> part;
+    if (group.part >= 0) part = part_at(static_cast<std::size_t>(group.part));
+    for (const Indices& piece : split(mesh, vertices)) add_pad(mesh, piece, part, flesh);
+  }
+  return flesh;
+}
+
+}  // namespace nade

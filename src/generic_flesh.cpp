@@ -1,0 +1,71 @@
+#include <algorithm>
+#include <array>
+
+#include "generic_flesh_table.h"
+#include "nade/flesh.h"
+
+namespace nade {
+namespace {
+
+HandPose bind_pose() {
+  HandPose bind;
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    const std::array<double, 7>& row = detail::kBind[i];
+    bind.joints[i].position = Vec3(row[0], row[1], row[2]);
+    bind.joints[i].rotation = Quat(row[6], row[3], row[4], row[5]).normalized();
+  }
+  return bind;
+}
+
+/// The left hand is the right one seen in the mirror x = 0.
+FleshPoint attached(const detail::FleshRow& row, const HandPose& bind) {
+  Vec3 position = 1e-5 * Vec3(row[0], row[1], row[2]);
+  if (bind.side == Handedness::left) position.x() = -position.x();
+  FleshPoint point;
+  double sum = 0.0;
+  for (std::size_t k = 0; k < point.joints.size(); ++k) {
+    point.joints[k] = static_cast<std::uint8_t>(row[3 + 2 * k]);
+    point.weights[k] = row[4 + 2 * k];
+    point.local[k] = bind.joints[point.joints[k]].inverse().apply(position);
+    sum += point.weights[k];
+  }
+  for (double& weight : point.weights) weight /= sum;
+  return point;
+}
+
+Vec3 position_in(const HandPose& bind, const FleshPoint& point) {
+  return bind.joints[point.joints[0]].apply(point.local[0]);
+}
+
+HandFlesh make_generic_flesh(Handedness side) {
+  HandPose bind = bind_pose();
+  if (side == Handedness::left) bind = mirrored(bind);
+  HandFlesh flesh;
+  flesh.side = side;
+  flesh.hand_length_m = hand_length(bind);
+  for (const detail::FleshRow& row : detail::kSkin) flesh.skin.push_back(attached(row, bind));
+  std::uint32_t first = 0;
+  for (const detail::PadRow& row : detail::kPads) {
+    FleshPad& pad = flesh.pads.emplace_back();
+    pad.middle = attached(row.middle, bind);
+    pad.first = first;
+    pad.count = static_cast<std::uint32_t>(row.count);
+    if (row.part >= 0) pad.part = part_at(static_cast<std::size_t>(row.part));
+    const Vec3 middle = position_in(bind, pad.middle);
+    for (std::uint32_t k = first; k < first + pad.count; ++k) {
+      pad.radius_m = std::max(pad.radius_m, (position_in(bind, flesh.skin[k]) - middle).norm());
+    }
+    first += pad.count;
+  }
+  return flesh;
+}
+
+}  // namespace
+
+const HandFlesh& generic_flesh(Handedness side) {
+  static const std::array<HandFlesh, 2> kFlesh{make_generic_flesh(Handedness::left),
+                                               make_generic_flesh(Handedness::right)};
+  return kFlesh[index_of(side)];
+}
+
+}  // namespace nade

@@ -1,0 +1,120 @@
+#include "posed_hand.h"
+
+#include <algorithm>
+
+namespace nade {
+namespace {
+
+/// The digit that carries a joint, and how many of its freedoms move it.
+struct Carrier {
+  std::size_t digit = kDigitCount;  ///< kDigitCount: none, the joint goes with the wrist
+  std::size_t freedoms = 0;
+};
+
+constexpr std::array<Carrier, kJointCount> make_carriers() {
+  std::array<Carrier, kJointCount> carriers{};
+  for (std::size_t d = 0; d < kDigitCount; ++d) {
+    for (std::size_t hinge = 0; hinge <= kHingeCount; ++hinge) {
+      // The first hinge has two freedoms; the tip goes with the last bone.
+      carriers[index_of(hinge_joint(digit_at(d), hinge))] = {d,
+                                                             std::min(hinge + 2, kDigitFreedoms)};
+    }
+  }
+  return carriers;
+}
+constexpr std::array<Carrier, kJointCount> kCarriers = make_carriers();
+
+BendRange range_of(const DigitChain& chain) {
+  const HingeRange base = range_of_motion(chain.digit, 0);
+  const HingeRange middle = range_of_motion(chain.digit, 1);
+  const HingeRange last = range_of_motion(chain.digit, 2);
+  const DigitFreedoms tracked = freedoms_of(chain.angles);
+  BendRange range;
+  range.low << base.abduction_min, base.flexion_min, middle.flexion_min, last.flexion_min;
+  range.high << base.abduction_max, base.flexion_max, middle.flexion_max, last.flexion_max;
+  range.low = (range.low - tracked).cwiseMin(0.0).eval();
+  range.high = (range.high - tracked).cwiseMax(0.0).eval();
+  return range;
+}
+
+/// The digit that moves a point most; kDigitCount where none does.
+std::size_t leading_digit(const FleshPoint& point) {
+  std::array<double, kDigitCount + 1> shares{};
+  for (std::size_t k = 0; k < point.joints.size(); ++k) {
+    shares[kCarriers[point.joints[k]].digit] += point.weights[k];
+  }
+  const auto most = std::max_element(shares.begin(), shares.begin() + kDigitCount);
+  return *most > 0.0 ? static_cast<std::size_t>(most - shares.begin()) : kDigitCount;
+}
+
+}  // namespace
+
+HandModel measure_model(const HandPose& tracked, double scale) noexcept {
+  HandModel model;
+  model.tracked = tracked;
+  model.scale = scale;
+  for (std::size_t d = 0; d < kDigitCount; ++d) {
+    model.chains[d] = measure_chain(tracked, digit_at(d));
+    model.ranges[d] = range_of(model.chains[d]);
+  }
+  return model;
+}
+
+Vec3 PosedFlesh::position(const FleshPoint& point) const noexcept {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 0; k < point.joints.size() && point.weights[k] > 0.0; ++k) {
+    const std::size_t joint = point.joints[k];
+    sum += point.weights[k] * (linear[joint] * point.local[k] + origin[joint]);
+  }
+  return sum;
+}
+
+PosedFlesh pose_flesh(const HandPose& hand, double scale) noexcept {
+  PosedFlesh flesh;
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    flesh.linear[i] = scale * hand.joints[i].rotation.toRotationMatrix();
+    flesh.origin[i] = hand.joints[i].position;
+  }
+  return flesh;
+}
+
+PosedHand pose_hand(const HandModel& model, const Correction& correction) noexcept {
+  PosedHand posed;
+  posed.hand = apply(correction.palm, model.tracked);
+  for (std::size_t d = 0; d < kDigitCount; ++d) {
+    DigitChain chain = model.chains[d];
+    chain.base = posed.hand[hinge_joint(chain.digit, 0)].position;
+    chain.parent_rotation = (correction.palm.turn * chain.parent_rotation).normalized();
+    const DigitAngles angles =
+        with_freedoms(chain.angles, freedoms_of(chain.angles) + correction.bend[d]);
+    posed.axes[d] = chain_axes(chain, angles);
+    if (!correction.bend[d].isZero(0.0))
+      set_digit(posed.hand, chain.digit, pose_chain(chain, angles));
+  }
+  posed.flesh = pose_flesh(posed.hand, model.scale);
+  return posed;
+}
+
+ContactRow motion_along(const PosedHand& posed, const FleshPoint& point,
+                        const Vec3& direction) noexcept {
+  ContactRow row;
+  const Vec3 from_palm = posed.flesh.position(point) - posed.hand[Joint::palm].position;
+  row.wrist.head<3>() = direction;
+  row.wrist.tail<3>() = from_palm.cross(direction);
+  const std::size_t digit = leading_digit(point);
+  if (digit == kDigitCount) return row;
+  row.digit = digit_at(digit);
+  const DigitAxes& axes = posed.axes[digit];
+  for (std::size_t k = 0; k < point.joints.size() && point.weights[k] > 0.0; ++k) {
+    const std::size_t joint = point.joints[k];
+    if (kCarriers[joint].digit != digit) continue;
+    const Vec3 carried = posed.flesh.linear[joint] * point.local[k] + posed.flesh.origin[joint];
+    for (std::size_t f = 0; f < kCarriers[joint].freedoms; ++f) {
+      const double lever = axes.axis[f].dot((carried - axes.center[f]).cross(direction));
+      row.bend[static_cast<Eigen::Index>(f)] += point.weights[k] * lever;
+    }
+  }
+  return row;
+}
+
+}  // namespace nade

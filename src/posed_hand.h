@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+
+#include "nade/correction.h"
+#include "nade/flesh.h"
+#include "nade/settle.h"
+
+namespace nade {
+
+/// The movable angles' bounds, as changes of the tracked ones.
+struct BendRange {
+  DigitFreedoms low = DigitFreedoms::Zero();   ///< at most 0
+  DigitFreedoms high = DigitFreedoms::Zero();  ///< at least 0
+};
+
+/// A tracked hand as something that can be moved: wrist and digits.
+struct HandModel {
+  HandPose tracked;
+  double scale = 1.0;
+  std::array<DigitChain, kDigitCount> chains{};
+  std::array<BendRange, kDigitCount> ranges{};  ///< a tracked angle out of range widens it
+};
+[[nodiscard]] HandModel measure_model(const HandPose& tracked, double scale) noexcept;
+
+/// Where the joints carry the flesh.
+struct PosedFlesh {
+  std::array<Eigen::Matrix3d, kJointCount> linear{};  ///< rotation times scale
+  std::array<Vec3, kJointCount> origin{};
+
+  [[nodiscard]] Vec3 position(const FleshPoint& point) const noexcept;
+};
+[[nodiscard]] PosedFlesh pose_flesh(const HandPose& hand, double scale) noexcept;
+
+/// The hand with a correction applied, ready for derivatives.
+struct PosedHand {
+  HandPose hand;
+  std::array<DigitAxes, kDigitCount> axes{};
+  PosedFlesh flesh;
+};
+[[nodiscard]] PosedHand pose_hand(const HandModel& model, const Correction& correction) noexcept;
+
+/// How far the point moves along `direction` with the hand's freedoms: the wrist shifted, and
+/// turned about the palm; the bends of the one digit that moves it most. `gap_m` and `pull` are
+/// left 0.
+[[nodiscard]] ContactRow motion_along(const PosedHand& posed, const FleshPoint& point,
+                                      const Vec3& direction) noexcept;
+
+}  // namespace nade

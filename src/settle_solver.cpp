@@ -1,0 +1,214 @@
+#include "settle_solver.h"
+
+// Based on: Hintermüller, Ito, Kunisch. The primal-dual active set strategy as a semismooth Newton
+// method. 2002.
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace nade {
+namespace {
+
+constexpr int kMostSteps = 16;
+constexpr int kMostSearches = 24;
+/// A step that saves less than this share of the cost, or this much of it, is the last.
+constexpr double kSmallestSaving = 1e-9;
+constexpr double kSmallestCost = 1e-12;
+
+double along(const ContactRow& row, const HandFreedoms& change) {
+  double sum = row.wrist.dot(change.head<6>());
+  if (row.digit) {
+    sum += row.bend.dot(change.segment<4>(first_freedom(index_of(*row.digit))));
+  }
+  return sum;
+}
+
+/// How hard a row pushes or pulls at a gap, per metre.
+double stiffness_at(const ContactRow& row, double gap_m) {
+  if (row.pull > 0.0) return gap_m > 0.0 ? row.pull : 0.0;
+  return gap_m < 0.0 ? kSurfaceStiffness : 0.0;
+}
+
+/// How far beyond a wall, signed.
+HandFreedoms beyond(const Walls& walls, const HandFreedoms& step) {
+  return (step - walls.high).cwiseMax(0.0) + (step - walls.low).cwiseMin(0.0);
+}
+
+/// The cost's second derivatives: every digit is coupled to the wrist, and to no other digit.
+struct Hessian {
+  Eigen::Matrix<double, 6, 6> wrist = Eigen::Matrix<double, 6, 6>::Zero();
+  std::array<Eigen::Matrix<double, 6, 4>, kDigitCount> coupling;
+  std::array<Eigen::Matrix4d, kDigitCount> digit;
+
+  explicit Hessian(const HandFreedoms& diagonal) {
+    wrist.diagonal() = diagonal.head<6>();
+    for (std::size_t d = 0; d < kDigitCount; ++d) {
+      coupling[d].setZero();
+      digit[d] = diagonal.segment<4>(first_freedom(d)).asDiagonal();
+    }
+  }
+
+  void add(const ContactRow& row, double stiffness) {
+    wrist.noalias() += stiffness * row.wrist * row.wrist.transpose();
+    if (!row.digit) return;
+    const std::size_t d = index_of(*row.digit);
+    coupling[d].noalias() += stiffness * row.wrist * row.bend.transpose();
+    digit[d].noalias() += stiffness * row.bend * row.bend.transpose();
+  }
+
+  /// Eliminates the digits, solves for the wrist, and goes back.
+  [[nodiscard]] HandFreedoms solve(const HandFreedoms& right) const {
+    Eigen::Matrix<double, 6, 6> reduced = wrist;
+    Eigen::Matrix<double, 6, 1> wrist_right = right.head<6>();
+    std::array<Eigen::Matrix<double, 4, 6>, kDigitCount> inverse_coupling;
+    std::array<Eigen::Vector4d, kDigitCount> inverse_right;
+    for (std::size_t d = 0; d < kDigitCount; ++d) {
+      const Eigen::LLT<Eigen::Matrix4d> factor(digit[d]);
+      inverse_coupling[d] = factor.solve(coupling[d].transpose());
+      inverse_right[d] = factor.solve(right.segment<4>(first_freedom(d)));
+      reduced.noalias() -= coupling[d] * inverse_coupling[d];
+      wrist_right.noalias() -= coupling[d] * inverse_right[d];
+    }
+    HandFreedoms result;
+    result.head<6>() = reduced.llt().solve(wrist_right);
+    for (std::size_t d = 0; d < kDigitCount; ++d) {
+      result.segment<4>(first_freedom(d)) =
+          inverse_right[d] - inverse_coupling[d] * result.head<6>();
+    }
+    return result;
+  }
+};
+
+/// The problem at a step, and its rows' gaps there and along a direction.
+class Descent {
+ public:
+  explicit Descent(const SettleProblem& problem)
+      : problem_(problem), count_(std::min(problem.rows.size(), gaps_.size())) {
+    for (std::size_t i = 0; i < count_; ++i) gaps_[i] = problem.rows[i].gap_m;
+  }
+
+  /// Toward the least cost of the quadratic that holds here.
+  [[nodiscard]] HandFreedoms newton_direction() const {
+    HandFreedoms diagonal = problem_.back.stiffness + problem_.viscous.stiffness;
+    HandFreedoms force = -spring_slope(step_);
+    for (const Walls* walls : {&problem_.range, &problem_.rate}) {
+      const HandFreedoms over = beyond(*walls, step_);
+      for (Eigen::Index i = 0; i < kHandFreedoms; ++i) {
+        if (over[i] != 0.0) diagonal[i] += walls->stiffness[i];
+      }
+      force -= walls->stiffness.cwiseProduct(over);
+    }
+    Hessian hessian(diagonal);
+    for (std::size_t i = 0; i < count_; ++i) {
+      const ContactRow& row = problem_.rows[i];
+      const double stiffness = stiffness_at(row, gaps_[i]);
+      if (stiffness == 0.0) continue;
+      hessian.add(row, stiffness);
+      const double push = -stiffness * gaps_[i];
+      force.head<6>() += push * row.wrist;
+      if (row.digit) force.segment<4>(first_freedom(index_of(*row.digit))) += push * row.bend;
+    }
+    return hessian.solve(force);
+  }
+
+  /// Goes to the least cost along a direction; gives what that saves.
+  double advance(const HandFreedoms& direction) {
+    for (std::size_t i = 0; i < count_; ++i) changes_[i] = along(problem_.rows[i], direction);
+    const double before = cost();
+    const double length = best_length(direction);
+    step_ += length * direction;
+    for (std::size_t i = 0; i < count_; ++i) gaps_[i] += length * changes_[i];
+    return before - cost();
+  }
+
+  [[nodiscard]] double cost() const {
+    double sum = (problem_.back.from + step_).cwiseAbs2().dot(problem_.back.stiffness) +
+                 (problem_.viscous.from + step_).cwiseAbs2().dot(problem_.viscous.stiffness);
+    for (const Walls* walls : {&problem_.range, &problem_.rate}) {
+      sum += beyond(*walls, step_).cwiseAbs2().dot(walls->stiffness);
+    }
+    for (std::size_t i = 0; i < count_; ++i) {
+      sum += stiffness_at(problem_.rows[i], gaps_[i]) * gaps_[i] * gaps_[i];
+    }
+    return 0.5 * sum;
+  }
+
+  [[nodiscard]] const HandFreedoms& step() const { return step_; }
+
+ private:
+  [[nodiscard]] HandFreedoms spring_slope(const HandFreedoms& step) const {
+    return problem_.back.stiffness.cwiseProduct(problem_.back.from + step) +
+           problem_.viscous.stiffness.cwiseProduct(problem_.viscous.from + step);
+  }
+
+  /// First and second derivative of the cost along the direction.
+  struct LineSlope {
+    double slope;
+    double bend;
+  };
+  [[nodiscard]] LineSlope slope_at(double length, const HandFreedoms& direction) const {
+    const HandFreedoms step = step_ + length * direction;
+    LineSlope result{
+        spring_slope(step).dot(direction),
+        direction.cwiseAbs2().dot(problem_.back.stiffness + problem_.viscous.stiffness)};
+    for (const Walls* walls : {&problem_.range, &problem_.rate}) {
+      const HandFreedoms over = beyond(*walls, step);
+      for (Eigen::Index i = 0; i < kHandFreedoms; ++i) {
+        if (over[i] == 0.0) continue;
+        result.slope += walls->stiffness[i] * over[i] * direction[i];
+        result.bend += walls->stiffness[i] * direction[i] * direction[i];
+      }
+    }
+    for (std::size_t i = 0; i < count_; ++i) {
+      const double gap_m = gaps_[i] + length * changes_[i];
+      const double stiffness = stiffness_at(problem_.rows[i], gap_m);
+      result.slope += stiffness * gap_m * changes_[i];
+      result.bend += stiffness * changes_[i] * changes_[i];
+    }
+    return result;
+  }
+
+  /// Where the slope along the direction is zero: it grows, piecewise linearly.
+  [[nodiscard]] double best_length(const HandFreedoms& direction) const {
+    constexpr double kFarthest = 2.0;
+    constexpr double kFlat = 1e-9;
+    double low = 0.0;
+    double high = kFarthest;
+    double length = 1.0;
+    for (int i = 0; i < kMostSearches; ++i) {
+      const LineSlope at = slope_at(length, direction);
+      if (std::abs(at.slope) <= kFlat * at.bend) break;
+      (at.slope < 0.0 ? low : high) = length;
+      const double next = length - at.slope / at.bend;
+      length = next > low && next < high ? next : 0.5 * (low + high);
+    }
+    return length;
+  }
+
+  static constexpr std::size_t kMostRows = 512;
+
+  const SettleProblem& problem_;
+  std::array<double, kMostRows> gaps_;
+  std::array<double, kMostRows> changes_;
+  std::size_t count_;
+  HandFreedoms step_ = HandFreedoms::Zero();
+};
+
+}  // namespace
+
+double gap_after(const ContactRow& row, const HandFreedoms& step) noexcept {
+  return row.gap_m + along(row, step);
+}
+
+HandFreedoms least_cost_step(const SettleProblem& problem) noexcept {
+  Descent descent(problem);
+  for (int i = 0; i < kMostSteps; ++i) {
+    const double saved = descent.advance(descent.newton_direction());
+    if (saved <= kSmallestSaving * descent.cost() + kSmallestCost) break;
+  }
+  return descent.step();
+}
+
+}  // namespace nade
