@@ -41,8 +41,9 @@ Result<std::vector<CorrectorOptions>> corrector_options(const FigureArguments& a
       return misuse(fmt::format("--method: expected some of {}, parted by commas, found '{}'",
                                 method_names(), name));
     }
-    all.emplace_back();
-    all.back().method = *method;
+    MethodOptions options;
+    options.corrector.method = *method;
+    all.push_back(options_of(options));
   }
   return all;
 }
@@ -167,10 +168,13 @@ Result<FigureContent> bundled_content(const draw::HandMeshes& hands,
 }
 
 Status run_on(const FigureArguments& arguments) {
-  const Result<std::vector<CorrectorOptions>> methods = corrector_options(arguments);
+  Result<std::vector<CorrectorOptions>> methods = corrector_options(arguments);
   if (!methods) return methods.error();
   Result<draw::HandMeshes> hands = load_hands(arguments.show.hands);
   if (!hands) return hands.error();
+  for (CorrectorOptions& options : *methods) {
+    use_own_hands(arguments.show.hands, *hands, options);
+  }
   Result<FigureContent> content = Error{};
   if (arguments.show.recording.empty()) {
     content = bundled_content(*hands, *methods);

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <memory>
 #include <sstream>
 #include <utility>
 
+#include "nade/flesh.h"
 #include "nade/io/assets.h"
 #include "nade/io/hand_file.h"
 #include "number_list.h"
@@ -60,6 +62,16 @@ Result<draw::HandMeshes> load_hands(const HandFiles& files) {
     hands[index_of(side)] = std::move(mesh).value();
   }
   return hands;
+}
+
+void use_own_hands(const HandFiles& files, const draw::HandMeshes& hands,
+                   CorrectorOptions& options) {
+  for (std::size_t side = 0; side < hands.size(); ++side) {
+    if (!files.file[side]) continue;
+    options.flesh[side] = std::make_shared<const HandFlesh>(measure_flesh(hands[side]));
+    options.skin = measure_skin_depths(hands[side]);
+    options.skin_hand_length_m = hand_length(hands[side].bind);
+  }
 }
 
 void add_size_option(CLI::App& command, PictureSize& size) {

@@ -18,6 +18,10 @@ void add_hand_options(CLI::App& command, HandFiles& options);
 /// The hands to draw: the files that were given, or the hand that comes with nade.
 [[nodiscard]] Result<draw::HandMeshes> load_hands(const HandFiles& files);
 
+/// Lets a method know the flesh of the hands that were given, in place of the generic hand's.
+void use_own_hands(const HandFiles& files, const draw::HandMeshes& hands,
+                   CorrectorOptions& options);
+
 /// --size WIDTHxHEIGHT.
 struct PictureSize {
   int width = 1280;

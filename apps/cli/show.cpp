@@ -97,6 +97,7 @@ Result<Show> prepare(const ShowArguments& arguments) {
   }
   Performance performance{arguments.recording, arguments.corrected, options_of(arguments.method),
                           seen->scale};
+  use_own_hands(arguments.hands, *hands, performance.method);
   if (headers->is_corrected) performance.method.method = Method::none;
   return Show{std::move(hands).value(), std::move(seen).value(), std::move(placed).value(),
               std::move(performance), !headers->is_corrected};

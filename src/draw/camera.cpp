@@ -89,8 +89,8 @@ Camera first_person(const HandPose& hand, double aspect) {
   ahead.y() = 0.0;  // the head does not roll with the hand
   if (ahead.norm() < 1e-6) ahead = -Vec3::UnitZ();
   ahead.normalize();
-  const Vec3 eye = wrist - 0.20 * ahead + 0.30 * Vec3::UnitY();
-  return looking_at(eye, knuckle + 0.03 * ahead, 42.0 * kDegree, aspect);
+  const Vec3 eye = wrist - 0.15 * ahead + 0.26 * Vec3::UnitY();
+  return looking_at(eye, knuckle, 40.0 * kDegree, aspect);
 }
 
 }  // namespace nade::draw

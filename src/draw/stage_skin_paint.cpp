@@ -156,15 +156,15 @@ class Painter {
       const bool knuckle = j == index_of(joints.metacarpal) + 1;
       const float along = local.z() / scale_;
       if (std::abs(along) > 0.03F) continue;
-      mix(color, flushed, own * dorsal * (knuckle ? 0.42F : 0.5F) * bump(along, 0.0055F));
+      mix(color, flushed, own * dorsal * (knuckle ? 0.30F : 0.26F) * bump(along, 0.0055F));
       if (knuckle) continue;
       float creases = 0.0F;
       for (int line = -1; line <= 1; ++line) {
         creases += bump(along - 0.0019F * static_cast<float>(line), 0.00045F);
       }
-      mix(color, {0.55F, 0.36F, 0.30F}, own * 0.30F * std::min(1.0F, creases) * dorsal);
+      mix(color, {0.55F, 0.36F, 0.30F}, own * 0.13F * std::min(1.0F, creases) * dorsal);
       const float folds = bump(along, 0.0006F) + bump(along - 0.0022F, 0.0005F);
-      mix(color, {0.62F, 0.36F, 0.31F}, own * 0.40F * std::min(1.0F, folds) * palmar);
+      mix(color, {0.62F, 0.36F, 0.31F}, own * 0.24F * std::min(1.0F, folds) * palmar);
     }
     const Fingertip& tip = tips_[index_of(digit)];
     const Vec3f local = frame(joints.tip).local(spot.point);
@@ -177,9 +177,9 @@ class Painter {
   void paint_nail(Digit digit, const Spot& spot, const Vec3f& local, Color& color) const {
     const Fingertip& tip = tips_[index_of(digit)];
     if (!(tip.half_width > 0.0F)) return;
-    const float half_width = 0.70F * tip.half_width;
+    const float half_width = 0.63F * tip.half_width;
     const float length = 2.15F * half_width;
-    const float start = tip.end - 0.0012F * scale_;  // the free edge
+    const float start = tip.end - 0.0018F * scale_;  // the free edge
     const float v = (start + local.z()) / length;    // 0 at the free edge, 1 at the root
     const float u = local.x() / half_width;
     const float facing = frame(joints_of(digit).tip).dorsal(spot.normal);
