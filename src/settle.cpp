@@ -13,10 +13,12 @@ namespace {
 // What the tracked pose is worth. A shift of 2 cm costs as much as bending a knuckle by a radian.
 constexpr double kShiftStiffness = 1.0 / (0.02 * 0.02);
 constexpr double kTurnStiffness = 10.0;
+/// About the surface's normal: the heading is the person's own.
+constexpr double kSpinStiffness = 40.0;
 /// Base abduction, base, middle and last flexion. A finger pushed from below gives way at its
 /// knuckle and keeps its curl; a thumb gives way as a whole.
 const DigitFreedoms kFingerStiffness{4.0, 1.0, 4.0, 6.0};
-const DigitFreedoms kThumbStiffness{0.5, 0.5, 1.0, 1.0};
+const DigitFreedoms kThumbStiffness{1.0, 1.0, 2.0, 2.0};
 
 /// The skin is kept this far out.
 constexpr double kMargin_m = 0.0002;
@@ -26,23 +28,25 @@ constexpr double kRowReach_m = 0.005;
 // A part that the person pressed in is drawn to the surface until it is this near, from as far as
 // `kPullReach_m`, with a pull that grows to its full strength with the tracked part's depth.
 constexpr double kPullRest_m = 0.001;
-constexpr double kPullReach_m = 0.015;
-constexpr double kPullFade_m = 0.005;
+constexpr double kPullReach_m = 0.03;
+constexpr double kPullFade_m = 0.01;
 constexpr double kPullStart_m = 0.001;
-constexpr double kPullFull_m = 0.012;
+constexpr double kPullFull_m = 0.025;
 constexpr double kPullStiffness = 1.0 / (0.006 * 0.006);
 
 // How fast a correction may change where nothing pushes: so many times the tracked hand's own
 // motion, and a little more, so that a hand at rest is released as well.
-constexpr double kShiftRate = 2.0;
-constexpr double kTurnRate = 1.0;
-constexpr double kBendRate = 1.0;
+constexpr double kShiftRate = 1.5;
+constexpr double kTurnRate = 0.6;
+constexpr double kBendRate = 0.6;
 constexpr double kFreeRate_m_per_s = 0.027;
 constexpr double kTurnLever_m = 0.10;
 constexpr double kBendLever_m = 0.07;
 constexpr double kWallStiffness = 1e5;
 /// Turns and bends follow with this time constant.
 constexpr double kViscosity_s = 0.022;
+/// And shifts along the surface with this.
+constexpr double kSlideTime_s = 0.088;
 /// The direction of the object's push is smoothed over this time.
 constexpr double kPushTime_s = 0.07;
 /// The drawn hand strays along the surface by no more than this share of the depth.
@@ -97,32 +101,23 @@ bool is_none(const Correction& correction) {
                      [](const DigitFreedoms& bend) { return bend.isZero(0.0); });
 }
 
-/// A correction as the step that leads to it from another.
-HandFreedoms step_between(const Correction& from, const Correction& to) {
-  HandFreedoms step;
-  step.head<3>() = to.palm.shift - from.palm.shift;
-  step.segment<3>(3) = rotation_vector(to.palm.turn * from.palm.turn.conjugate());
-  for (std::size_t d = 0; d < kDigitCount; ++d) {
-    step.segment<4>(first_freedom(d)) = to.bend[d] - from.bend[d];
-  }
-  return step;
-}
-
-void take_step(const HandModel& model, const HandFreedoms& step, Correction& correction) {
-  correction.palm.shift += step.head<3>();
-  correction.palm.turn = (turn_about(step.segment<3>(3)) * correction.palm.turn).normalized();
-  for (std::size_t d = 0; d < kDigitCount; ++d) {
-    const BendRange& range = model.ranges[d];
-    correction.bend[d] = (correction.bend[d] + step.segment<4>(first_freedom(d)))
-                             .cwiseMax(range.low)
-                             .cwiseMin(range.high);
-  }
-}
-
 /// The farthest that any skin goes in a step, about.
 double reach_of(const HandFreedoms& step) {
   return step.head<3>().norm() + kTurnLever_m * step.segment<3>(3).norm() +
          kBendLever_m * step.tail<kHandFreedoms - 6>().cwiseAbs().maxCoeff();
+}
+
+/// Z along `normal`, X as near as can be to where the hand points; the hand's own axes where there
+/// is no normal.
+Eigen::Matrix3d surface_frame(const Vec3& normal, const Quat& palm) {
+  const Vec3 ahead = palm * -Vec3::UnitZ();
+  const Vec3 along = along_surface(ahead, normal);
+  if (normal.isZero() || along.norm() < 1e-6) return palm.toRotationMatrix();
+  Eigen::Matrix3d frame;
+  frame.col(0) = along.normalized();
+  frame.col(1) = normal.cross(frame.col(0));
+  frame.col(2) = normal;
+  return frame;
 }
 
 /// The plane through the surface point nearest to a pad's middle. The surface's own normal, which
@@ -167,7 +162,7 @@ class Settling {
       find_rows(posed, round == 0 ? kSamePlaneNextFrame_m : kSamePlane_m);
       if (memory_.rows.empty() && is_none(correction_)) break;
       const HandFreedoms step = least_cost_step(problem());
-      take_step(model_, step, correction_);
+      take_step(step);
       find_push(step);
       if (reach_of(step) < kSettled_m) break;
     }
@@ -181,6 +176,10 @@ class Settling {
                            double same_plane_m);
   void add_rows(const FleshPad& pad, const PadPlane& plane_world, const PosedHand& posed);
   void add_pulls(const PosedHand& posed);
+  [[nodiscard]] HandFreedoms step_between(const Correction& from, const Correction& to) const;
+  void take_step(const HandFreedoms& step);
+  [[nodiscard]] ContactRow row_of(const PosedHand& posed, const FleshPoint& point,
+                                  const Vec3& normal) const;
   [[nodiscard]] SettleProblem problem() const;
   void find_push(const HandFreedoms& step);
   void remember_surface_motion();
@@ -198,6 +197,9 @@ class Settling {
   bool fresh_ = false;
   double motion_m_ = 0.0;  ///< of the tracked hand, in the world or against the object
   double sink_m_ = 0.0;
+  /// In which the wrist's freedoms are counted: Z along the object's push, X ahead as far as the
+  /// surface allows.
+  Eigen::Matrix3d frame_ = Eigen::Matrix3d::Identity();
   Correction last_;
   Correction correction_;
   Vec3 push_ = Vec3::Zero();
@@ -231,7 +233,8 @@ void Settling::start() {
   sink_m_ = options_.softness_m * (1.0 - std::exp(-memory_.height_m / options_.softness_depth_m));
   push_ = memory_.push;
   correction_ = memory_.correction;
-  take_step(model_, HandFreedoms::Zero(), correction_);  // into the range of this frame's pose
+  frame_ = surface_frame(push_, tracked[Joint::palm].rotation);
+  take_step(HandFreedoms::Zero());  // into the range of this frame's pose
   last_ = correction_;
 }
 
@@ -289,7 +292,7 @@ void Settling::add_rows(const FleshPad& pad, const PadPlane& plane_world, const 
       }
     }
     if (gap_m > kRowReach_m || memory_.rows.size() == kMostRows) continue;
-    ContactRow row = motion_along(posed, point, normal);
+    ContactRow row = row_of(posed, point, normal);
     row.gap_m = gap_m + sink_m_ - kMargin_m;
     memory_.rows.push_back(row);
   }
@@ -301,11 +304,43 @@ void Settling::add_pulls(const PosedHand& posed) {
     const double share = smoothstep(kPullStart_m, kPullStart_m + kPullFull_m, part.depth_m) *
                          smoothstep(-kPullReach_m, kPullFade_m - kPullReach_m, -part.gap_m);
     if (share == 0.0) continue;
-    ContactRow row = motion_along(posed, *part.point, part.normal);
+    ContactRow row = row_of(posed, *part.point, part.normal);
     row.gap_m = part.gap_m + sink_m_ - kPullRest_m;
     row.pull = share * kPullStiffness;
     memory_.rows.push_back(row);
   }
+}
+
+/// A correction as the step that leads to it from another.
+HandFreedoms Settling::step_between(const Correction& from, const Correction& to) const {
+  HandFreedoms step;
+  step.head<3>() = frame_.transpose() * (to.palm.shift - from.palm.shift);
+  step.segment<3>(3) =
+      frame_.transpose() * rotation_vector(to.palm.turn * from.palm.turn.conjugate());
+  for (std::size_t d = 0; d < kDigitCount; ++d) {
+    step.segment<4>(first_freedom(d)) = to.bend[d] - from.bend[d];
+  }
+  return step;
+}
+
+void Settling::take_step(const HandFreedoms& step) {
+  PalmCorrection& palm = correction_.palm;
+  palm.shift += frame_ * step.head<3>();
+  palm.turn = (turn_about(frame_ * step.segment<3>(3)) * palm.turn).normalized();
+  for (std::size_t d = 0; d < kDigitCount; ++d) {
+    const BendRange& range = model_.ranges[d];
+    correction_.bend[d] = (correction_.bend[d] + step.segment<4>(first_freedom(d)))
+                              .cwiseMax(range.low)
+                              .cwiseMin(range.high);
+  }
+}
+
+ContactRow Settling::row_of(const PosedHand& posed, const FleshPoint& point,
+                            const Vec3& normal) const {
+  ContactRow row = motion_along(posed, point, normal);
+  row.wrist.head<3>() = frame_.transpose() * row.wrist.head<3>();
+  row.wrist.tail<3>() = frame_.transpose() * row.wrist.tail<3>();
+  return row;
 }
 
 SettleProblem Settling::problem() const {
@@ -314,19 +349,20 @@ SettleProblem Settling::problem() const {
 
   HandFreedoms& back = problem.back.stiffness;
   back.head<3>().setConstant(kShiftStiffness);
-  back.segment<3>(3).setConstant(kTurnStiffness);
+  back.segment<3>(3) << kTurnStiffness, kTurnStiffness, kSpinStiffness;
   for (std::size_t d = 0; d < kDigitCount; ++d) {
     back.segment<4>(first_freedom(d)) =
         digit_at(d) == Digit::thumb ? kThumbStiffness : kFingerStiffness;
   }
   problem.back.from = step_between({}, correction_);
-  problem.back.from.head<3>() -= memory_.carried + memory_.lag;
+  problem.back.from.head<3>() -= frame_.transpose() * (memory_.carried + memory_.lag);
 
   const HandFreedoms changed = step_between(last_, correction_);
   problem.viscous.from = changed;
   if (!fresh_) {
     problem.viscous.stiffness = kViscosity_s / seconds_ * back;
-    problem.viscous.stiffness.head<3>().setZero();
+    problem.viscous.stiffness.head<2>() *= kSlideTime_s / kViscosity_s;
+    problem.viscous.stiffness[2] = 0.0;  // out of the object at once, and back
   }
 
   problem.range.low.setConstant(-1.0);
@@ -357,7 +393,7 @@ void Settling::find_push(const HandFreedoms& step) {
     const double gap_m = gap_after(row, step);
     if (gap_m > 0.0) continue;
     touches_ = true;
-    if (row.pull == 0.0) force -= gap_m * row.wrist.head<3>();
+    if (row.pull == 0.0) force -= gap_m * (frame_ * row.wrist.head<3>());
   }
   const double strength = force.norm();
   if (!(strength > 1e-12)) {
