@@ -1,0 +1,18 @@
+# Run by nade_embed: writes OUTPUT, which defines nade::draw::embedded_file for FILES ("a|b|c").
+string(REPLACE "|" ";" files "${FILES}")
+set(text "#include \"embedded.h\"\n\nnamespace nade::draw {\nnamespace {\n\n")
+set(table "")
+set(number 0)
+foreach(file IN LISTS files)
+  file(READ "${file}" hex HEX)
+  file(SIZE "${file}" size)
+  # Each byte an escape of its own, in lines, so that compilers and people can open the file.
+  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "\\\\x\\1" bytes "${hex}")
+  string(REGEX REPLACE "((\\\\x[0-9a-f][0-9a-f])(\\\\x[0-9a-f][0-9a-f])(\\\\x[0-9a-f][0-9a-f])(\\\\x[0-9a-f][0-9a-f])(\\\\x[0-9a-f][0-9a-f])(\\\\x[0-9a-f][0-9a-f])(\\\\x[0-9a-f][0-9a-f])(\\\\x[0-9a-f][0-9a-f]))" "\\1\"\n\"" bytes "${bytes}")
+  get_filename_component(name "${file}" NAME)
+  string(APPEND text "constexpr char kFile${number}[] =\n\"${bytes}\";\n\n")
+  string(APPEND table "  if (name == \"${name}\") return {kFile${number}, ${size}};\n")
+  math(EXPR number "${number} + 1")
+endforeach()
+string(APPEND text "}  // namespace\n\nstd::string_view embedded_file(std::string_view name) {\n${table}  return {};\n}\n\n}  // namespace nade::draw\n")
+file(WRITE "${OUTPUT}" "${text}")

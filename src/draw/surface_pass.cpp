@@ -1,0 +1,106 @@
+#include "surface_pass.h"
+
+#include <array>
+
+#include "shadow_pass.h"
+
+namespace nade::draw {
+namespace {
+
+// As in shaders/surface.frag.glsl and ghost.frag.glsl.
+constexpr GLint kBaseColorUniform = 1;
+constexpr GLint kMaterialUniform = 2;
+constexpr GLint kTexturedUniform = 3;
+constexpr GLint kOpacityUniform = 4;
+
+void set_look(const DrawItem& item) {
+  const Material& material = item.mesh->material;
+  const Color color = material.base_color.cwiseProduct(item.instance->tint);
+  glUniform3fv(kBaseColorUniform, 1, color.data());
+  glUniform4f(kMaterialUniform, material.roughness, material.metalness, material.sheen,
+              material.translucency);
+  glUniform1i(kTexturedUniform, item.mesh->texture ? 1 : 0);
+  glBindTextureUnit(kColorUnit, item.mesh->texture.get());
+}
+
+}  // namespace
+
+Result<SurfacePass> SurfacePass::create() {
+  SurfacePass pass;
+  const auto build = [](GlProgram& into, const ProgramFiles& files) -> Status {
+    Result<GlProgram> program = make_program(files);
+    if (!program) return program.error();
+    into = std::move(*program);
+    return ok_status();
+  };
+  const std::array<Status, 4> built{
+      build(pass.backdrop_, {{"screen.vert.glsl"},
+                             {"frame.glsl", "srgb.glsl", "studio.glsl", "backdrop.frag.glsl"}}),
+      build(pass.floor_,
+            {{"frame.glsl", "floor.vert.glsl"},
+             {"frame.glsl", "srgb.glsl", "studio.glsl", "received.glsl", "floor.frag.glsl"}}),
+      build(pass.surface_, {{"frame.glsl", "mesh.vert.glsl"},
+                            {"frame.glsl", "srgb.glsl", "studio.glsl", "received.glsl",
+                             "grain.glsl", "surface.frag.glsl"}}),
+      build(pass.ghost_, {{"frame.glsl", "mesh.vert.glsl"},
+                          {"frame.glsl", "srgb.glsl", "studio.glsl", "ghost.frag.glsl"}})};
+  for (const Status& status : built) {
+    if (!status) return status.error();
+  }
+  pass.nothing_ = make_vertex_array();
+  return pass;
+}
+
+void SurfacePass::draw_solids(const std::vector<DrawItem>& solids, const Scene& scene) {
+  glDisable(GL_BLEND);
+  glDisable(GL_DEPTH_TEST);
+  glBindVertexArray(nothing_.get());
+  glUseProgram(backdrop_.get());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  // A vertex without colour is white.
+  glVertexAttrib3f(kColorAttribute, 1.0F, 1.0F, 1.0F);
+  glUseProgram(surface_.get());
+  for (const DrawItem& item : solids) {
+    set_look(item);
+    draw_triangles(item);
+  }
+  if (!scene.floor) return;
+  glUseProgram(floor_.get());
+  glBindVertexArray(nothing_.get());
+  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+}
+
+void SurfacePass::draw_ghosts(const std::vector<DrawItem>& ghosts) {
+  if (ghosts.empty()) return;
+  glVertexAttrib3f(kColorAttribute, 1.0F, 1.0F, 1.0F);
+  glUseProgram(ghost_.get());
+  glEnable(GL_DEPTH_TEST);
+  glEnable(GL_CULL_FACE);
+  glEnable(GL_BLEND);
+  for (const DrawItem& item : ghosts) {
+    set_look(item);
+    if (item.instance->shows_behind > 0.0F) {
+      glUniform1f(kOpacityUniform, item.instance->opacity * item.instance->shows_behind);
+      glDepthMask(GL_FALSE);
+      glDepthFunc(GL_GREATER);
+      draw_triangles(item);
+      glDepthMask(GL_TRUE);
+    }
+    // First its depth alone, so that only its front shows.
+    glUniform1f(kOpacityUniform, item.instance->opacity);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    glDepthFunc(GL_LESS);
+    draw_triangles(item);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDepthFunc(GL_EQUAL);
+    draw_triangles(item);
+  }
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_BLEND);
+  glDepthFunc(GL_LESS);
+}
+
+}  // namespace nade::draw
