@@ -18,5 +18,6 @@ void add_inspect(CLI::App& app, Action& action);
 void add_measure(CLI::App& app, Action& action);
 void add_render(CLI::App& app, Action& action);
 void add_synth(CLI::App& app, Action& action);
+void add_view(CLI::App& app, Action& action);
 
 }  // namespace nade::cli

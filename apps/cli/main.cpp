@@ -30,6 +30,9 @@ int run(int argc, char** argv) {
   nade::cli::add_render(app, action);
   nade::cli::add_figure(app, action);
 #endif
+#ifdef NADE_CLI_VIEWER
+  nade::cli::add_view(app, action);
+#endif
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

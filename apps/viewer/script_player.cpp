@@ -1,0 +1,52 @@
+#include "script_player.h"
+
+#include <fmt/format.h>
+
+namespace nade::viewer {
+
+ScriptPlayer::ScriptPlayer(std::vector<ScriptedStep> steps) : steps_(steps.begin(), steps.end()) {}
+
+Result<std::vector<Event>> ScriptPlayer::next(const UiKit& ui) {
+  while (!steps_.empty() && steps_.front().frame <= frame_) {
+    const ScriptedStep step = steps_.front();
+    steps_.pop_front();
+    if (const Event* const event = std::get_if<Event>(&step.act)) {
+      later_.push_back({frame_, *event});
+      continue;
+    }
+    const Status clicked = click(std::get<ScriptedClick>(step.act), ui);
+    if (!clicked) return clicked.error();
+  }
+  std::vector<Event> events;
+  std::deque<Timed> rest;
+  for (const Timed& timed : later_) {
+    if (timed.frame <= frame_) {
+      events.push_back(timed.event);
+    } else {
+      rest.push_back(timed);
+    }
+  }
+  later_ = std::move(rest);
+  ++frame_;
+  return events;
+}
+
+Status ScriptPlayer::click(const ScriptedClick& click, const UiKit& ui) {
+  const Widget* const widget = ui.find(click.widget);
+  if (widget == nullptr) {
+    return Error{ErrorCode::bad_value,
+                 fmt::format("script: frame {}: no widget is called '{}'", frame_, click.widget)};
+  }
+  Event event;
+  event.x = widget->left + click.across * (widget->right - widget->left);
+  event.y = 0.5 * (widget->top + widget->bottom);
+  later_.push_back({frame_, event});
+  event.kind = Event::Kind::button;
+  event.change = Change::down;
+  later_.push_back({frame_ + 1, event});
+  event.change = Change::up;
+  later_.push_back({frame_ + 2, event});
+  return ok_status();
+}
+
+}  // namespace nade::viewer

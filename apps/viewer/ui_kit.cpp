@@ -1,0 +1,195 @@
+#include "ui_kit.h"
+
+#include <epoxy/gl.h>
+#include <imgui.h>
+#include <imgui_impl_opengl3.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+namespace nade::viewer {
+namespace {
+
+constexpr double kTipAfter_s = 0.45;
+constexpr float kTipWidth = 300.0F;
+constexpr float kTextSize = 15.0F;
+constexpr float kSmallSize = 12.5F;
+constexpr const char* kFontFolder = "/usr/share/fonts/truetype/dejavu/";
+
+ImVec4 grey(float value) { return {value, value, value * 1.04F, 1.0F}; }
+
+const ImVec4 kAccent{0.23F, 0.51F, 0.62F, 1.0F};
+const ImVec4 kAccentBright{0.29F, 0.60F, 0.72F, 1.0F};
+
+void set_style() {
+  ImGui::StyleColorsDark();
+  ImGuiStyle& style = ImGui::GetStyle();
+  style.WindowRounding = 0.0F;
+  style.WindowBorderSize = 0.0F;
+  style.WindowPadding = {14.0F, 12.0F};
+  style.FrameRounding = 4.0F;
+  style.FramePadding = {7.0F, 4.0F};
+  style.ItemSpacing = {6.0F, 6.0F};
+  style.GrabRounding = 4.0F;
+  style.GrabMinSize = 12.0F;
+  style.PopupRounding = 5.0F;
+  style.ScrollbarSize = 10.0F;
+  ImVec4* const colors = style.Colors;
+  colors[ImGuiCol_WindowBg] = grey(0.13F);
+  colors[ImGuiCol_PopupBg] = grey(0.08F);
+  colors[ImGuiCol_Text] = grey(0.90F);
+  colors[ImGuiCol_TextDisabled] = grey(0.60F);
+  colors[ImGuiCol_FrameBg] = grey(0.21F);
+  colors[ImGuiCol_FrameBgHovered] = grey(0.26F);
+  colors[ImGuiCol_FrameBgActive] = grey(0.30F);
+  colors[ImGuiCol_Button] = grey(0.22F);
+  colors[ImGuiCol_ButtonHovered] = grey(0.30F);
+  colors[ImGuiCol_ButtonActive] = kAccent;
+  colors[ImGuiCol_SliderGrab] = kAccentBright;
+  colors[ImGuiCol_SliderGrabActive] = kAccentBright;
+  colors[ImGuiCol_CheckMark] = kAccentBright;
+  colors[ImGuiCol_Separator] = grey(0.24F);
+  colors[ImGuiCol_PlotLines] = kAccentBright;
+  colors[ImGuiCol_PlotHistogram] = kAccentBright;
+}
+
+/// A font of the system, or else the one that the library brings.
+ImFont* add_font(const char* file, float size) {
+  static constexpr std::array<ImWchar, 7> kRanges{0x20, 0x17f, 0x370, 0x3ff, 0x2010, 0x25ff, 0};
+  ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
+  const std::string path = std::string(kFontFolder) + file;
+  if (std::filesystem::exists(path)) {
+    ImFont* const font = fonts.AddFontFromFileTTF(path.c_str(), size, nullptr, kRanges.data());
+    if (font != nullptr) return font;
+  }
+  return fonts.AddFontDefault();
+}
+
+}  // namespace
+
+Result<std::unique_ptr<UiKit>> UiKit::create() {
+  std::unique_ptr<UiKit> kit(new UiKit);
+  IMGUI_CHECKVERSION();
+  ImGui::CreateContext();
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;
+  io.LogFilename = nullptr;
+  kit->normal_ = add_font("DejaVuSans.ttf", kTextSize);
+  kit->small_ = add_font("DejaVuSans.ttf", kSmallSize);
+  kit->bold_ = add_font("DejaVuSans-Bold.ttf", kTextSize);
+  set_style();
+  if (!ImGui_ImplOpenGL3_Init("#version 450 core")) {
+    return Error{ErrorCode::not_found, "the window's controls need the library libGL.so.1"};
+  }
+  return kit;
+}
+
+UiKit::~UiKit() {
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui::DestroyContext();
+}
+
+void UiKit::begin(const Input& input) {
+  ImGuiIO& io = ImGui::GetIO();
+  io.DisplaySize = {static_cast<float>(input.width), static_cast<float>(input.height)};
+  io.DeltaTime = static_cast<float>(std::max(input.step_s, 1e-4));
+  const bool inside = input.inside;
+  const ImVec2 pointer{inside ? static_cast<float>(input.x) : -FLT_MAX,
+                       inside ? static_cast<float>(input.y) : -FLT_MAX};
+#if IMGUI_VERSION_NUM >= 18700
+  io.AddMousePosEvent(pointer.x, pointer.y);
+  for (int i = 0; i < 3; ++i) io.AddMouseButtonEvent(i, input.buttons[static_cast<std::size_t>(i)]);
+  io.AddMouseWheelEvent(0.0F, static_cast<float>(input.wheel));
+#else
+  io.MousePos = pointer;
+  for (std::size_t i = 0; i < 3; ++i) io.MouseDown[i] = input.buttons[i];
+  io.MouseWheel = static_cast<float>(input.wheel);
+#endif
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui::NewFrame();
+  widgets_.clear();
+  hovered_now_ = false;
+}
+
+void UiKit::end(unsigned framebuffer) {
+  if (!hovered_now_) hovered_.clear();
+  ImGui::Render();
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  glDisable(GL_FRAMEBUFFER_SRGB);
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  last_widgets_ = widgets_;
+}
+
+bool UiKit::takes_pointer() const { return ImGui::GetIO().WantCaptureMouse; }
+
+void UiKit::explain(std::string_view name, std::string_view tip) {
+  const ImVec2 low = ImGui::GetItemRectMin();
+  const ImVec2 high = ImGui::GetItemRectMax();
+  widgets_.push_back({std::string(name), low.x, low.y, high.x, high.y});
+  if (!ImGui::IsItemHovered()) return;
+  hovered_now_ = true;
+  if (hovered_ != name) {
+    hovered_ = name;
+    hovered_s_ = 0.0;
+  }
+  hovered_s_ += ImGui::GetIO().DeltaTime;
+  if (hovered_s_ < kTipAfter_s || ImGui::IsItemActive()) return;
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {10.0F, 8.0F});
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(kTipWidth);
+  ImGui::TextUnformatted(tip.data(), tip.data() + tip.size());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+  ImGui::PopStyleVar();
+}
+
+bool UiKit::button(std::string_view name, const char* label, Lit lit, float width,
+                   std::string_view tip) {
+  if (lit == Lit::yes) {
+    ImGui::PushStyleColor(ImGuiCol_Button, kAccent);
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, kAccentBright);
+  }
+  ImGui::PushID(name.data(), name.data() + name.size());
+  const bool pressed = ImGui::Button(label, {width, 0.0F});
+  ImGui::PopID();
+  if (lit == Lit::yes) ImGui::PopStyleColor(2);
+  explain(name, tip);
+  return pressed;
+}
+
+bool UiKit::check(std::string_view name, const char* label, bool& value, std::string_view tip) {
+  const bool changed = ImGui::Checkbox(label, &value);
+  explain(name, tip);
+  return changed;
+}
+
+bool UiKit::slider(std::string_view name, const char* label, float& value, float low, float high,
+                   const char* format, std::string_view tip) {
+  constexpr float kLabelWidth = 62.0F;
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(label);
+  ImGui::SameLine(kLabelWidth);
+  ImGui::SetNextItemWidth(-1.0F);
+  ImGui::PushID(name.data(), name.data() + name.size());
+  const bool changed = ImGui::SliderFloat("##value", &value, low, high, format,
+                                          ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput);
+  ImGui::PopID();
+  explain(name, tip);
+  return changed;
+}
+
+void UiKit::heading(const char* text) {
+  ImGui::Spacing();
+  ImGui::PushFont(bold_);
+  ImGui::TextUnformatted(text);
+  ImGui::PopFont();
+}
+
+const Widget* UiKit::find(std::string_view name) const {
+  const auto found = std::find_if(last_widgets_.begin(), last_widgets_.end(),
+                                  [&](const Widget& widget) { return widget.name == name; });
+  return found == last_widgets_.end() ? nullptr : &*found;
+}
+
+}  // namespace nade::viewer
