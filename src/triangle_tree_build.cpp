@@ -27,7 +27,8 @@ struct Item {
 
 /// How many leaves so many triangles fill at least.
 float leaves_for(std::uint32_t count) {
-  return static_cast<float>((count + kTreeWidth - 1) / kTreeWidth);
+  const std::uint32_t leaves = (count + kTreeWidth - 1) / kTreeWidth;
+  return static_cast<float>(leaves);
 }
 
 struct Range {
