@@ -23,6 +23,7 @@ struct Desk {
   draw::Overlays overlays;
   bool help = false;
   bool panels = true;
+  bool coarse = false;  ///< the scene at half the size, for slow machines
   std::vector<Notice> notices;
 
   /// Tells a sentence, or why something could not be done.

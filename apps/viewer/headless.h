@@ -33,7 +33,7 @@ class HeadlessViewer {
   ~HeadlessViewer();
 
   /// Draws the next frame, in which `events` happen.
-  void frame(const std::vector<Event>& events);
+  void frame(const std::vector<Event>& events, Drawing drawing = Drawing::all);
   /// The last frame, controls and all.
   [[nodiscard]] draw::Image picture() const;
   [[nodiscard]] Viewer& viewer();
@@ -46,8 +46,5 @@ class HeadlessViewer {
 
 /// Runs frames without a display; 60 where `run` names no number.
 [[nodiscard]] Status run_headless(ViewerSetup setup, const Run& run);
-
-/// Reads a picture back from a framebuffer of the current context (0: the window).
-[[nodiscard]] draw::Image read_back(unsigned framebuffer, int width, int height);
 
 }  // namespace nade::viewer

@@ -52,6 +52,7 @@ void MouseHand::place(const Object& object, const Pose& place) {
   surface_point_ = place.position;
   ahead_ = tangent_part(place.rotation * -Vec3::UnitZ(), normal_).normalized();
   held_ = settings_;
+  settled_ = false;
 }
 
 HandPose MouseHand::update(const Object& object, const Aim& aim, double step_s) {
@@ -122,7 +123,8 @@ void MouseHand::take_heading(const Aim& aim, double step_s) {
   ahead_ = kept.norm() > 1e-3 ? Vec3(kept.normalized()) : Vec3(normal_.unitOrthogonal());
   if (goal.norm() < (by_motion ? kMoving_m_per_s : 0.1)) return;
   const double away = std::atan2(ahead_.cross(goal).dot(normal_), ahead_.dot(goal));
-  const double share = share_of(step_s, by_motion ? kMotionHeading_s : kHeading_s);
+  const double share = settled_ ? share_of(step_s, by_motion ? kMotionHeading_s : kHeading_s) : 1.0;
+  settled_ = true;
   ahead_ = Quat(Eigen::AngleAxisd(share * away, normal_)) * ahead_;
   ahead_ = tangent_part(ahead_, normal_).normalized();
 }

@@ -76,6 +76,7 @@ class MouseHand {
   Vec3 surface_point_ = Vec3::Zero();
   Vec3 normal_ = Vec3::UnitY();
   Vec3 ahead_ = -Vec3::UnitZ();
+  bool settled_ = false;  ///< has once turned to where it points
   SurfaceHint hint_;
 };
 

@@ -131,6 +131,8 @@ void view_section(UiKit& ui, Desk& desk) {
       desk.look(choice.view);
     }
   }
+  ui.check("view:coarse", "coarse but quick", desk.coarse,
+           "Draws the scene at half the size; set by itself where drawing is slow");
 }
 
 void degrees_slider(UiKit& ui, const char* label, double& value_rad, float most, const char* tip) {

@@ -9,6 +9,8 @@ ScriptPlayer::ScriptPlayer(std::vector<ScriptedStep> steps) : steps_(steps.begin
 Result<std::vector<Event>> ScriptPlayer::next(const UiKit& ui) {
   while (!steps_.empty() && steps_.front().frame <= frame_) {
     const ScriptedStep step = steps_.front();
+    // Before the first frame is drawn there is nothing to click on.
+    if (frame_ == 0 && std::holds_alternative<ScriptedClick>(step.act)) break;
     steps_.pop_front();
     if (const Event* const event = std::get_if<Event>(&step.act)) {
       later_.push_back({frame_, *event});

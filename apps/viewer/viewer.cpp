@@ -54,7 +54,7 @@ Result<std::unique_ptr<Viewer>> Viewer::create(ViewerSetup setup) {
   return viewer;
 }
 
-void Viewer::frame(const Input& input, unsigned framebuffer) {
+void Viewer::frame(const Input& input, unsigned framebuffer, Drawing drawing) {
   const Layout layout = layout_of(input.width, input.height, desk_.panels);
   viewport_ = layout.scene;
   ui_->begin(input);
@@ -84,7 +84,7 @@ void Viewer::frame(const Input& input, unsigned framebuffer) {
     if (hand) followed = hand->tracked;
   }
   camera_ = desk_.camera.camera(viewport_, followed, input.step_s);
-  draw_scene(input.height, framebuffer);
+  if (drawing == Drawing::all) draw_scene(input.height, framebuffer);
   ui_->end(framebuffer);
 }
 
@@ -164,7 +164,26 @@ void Viewer::draw_scene(int window_height, unsigned framebuffer) {
   target.y = window_height - viewport_.y - viewport_.height;
   target.width = viewport_.width;
   target.height = viewport_.height;
-  renderer_.draw(stage_->arrange(frame), camera_, target);
+  frame.pixel_scale = desk_.coarse ? 0.5F : 1.0F;
+  const draw::Scene& scene = stage_->arrange(frame);
+  if (desk_.coarse) {
+    draw_coarsely(scene, target);
+  } else {
+    renderer_.draw(scene, camera_, target);
+  }
+}
+
+void Viewer::draw_coarsely(const draw::Scene& scene, const draw::Target& target) {
+  const int width = std::max(1, target.width / 2);
+  const int height = std::max(1, target.height / 2);
+  if (!coarse_ || coarse_->width() != width || coarse_->height() != height) {
+    coarse_ = std::make_unique<Canvas>(width, height);
+  }
+  renderer_.draw(scene, camera_, {coarse_->framebuffer(), 0, 0, width, height});
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, coarse_->framebuffer());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target.framebuffer);
+  glBlitFramebuffer(0, 0, width, height, target.x, target.y, target.x + target.width,
+                    target.y + target.height, GL_COLOR_BUFFER_BIT, GL_LINEAR);
 }
 
 }  // namespace nade::viewer

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "canvas.h"
 #include "desk.h"
 #include "nade/draw/renderer.h"
 #include "panels.h"
@@ -24,6 +25,9 @@ struct ViewerSetup {
   draw::Shown shown = draw::Shown::corrected;
 };
 
+/// Whether a frame's scene is drawn; what happens in it is the same.
+enum class Drawing : std::uint8_t { all, controls };
+
 /// The viewer's program, apart from where its pictures go: a window, or nowhere. Lives in the
 /// OpenGL context that was current when it was made.
 class Viewer {
@@ -35,7 +39,7 @@ class Viewer {
 
   /// One frame: takes what was done, goes on, draws into a framebuffer of the size of `input`
   /// (0: the window).
-  void frame(const Input& input, unsigned framebuffer);
+  void frame(const Input& input, unsigned framebuffer, Drawing drawing = Drawing::all);
 
   [[nodiscard]] Session& session() { return session_; }
   [[nodiscard]] Desk& desk() { return desk_; }
@@ -53,12 +57,14 @@ class Viewer {
   [[nodiscard]] Aim aim(const Input& input) const;
   void dress_object();
   void draw_scene(int window_height, unsigned framebuffer);
+  void draw_coarsely(const draw::Scene& scene, const draw::Target& target);
 
   Session session_;
   Desk desk_;
   draw::Renderer renderer_;
   std::optional<draw::Stage> stage_;
   std::unique_ptr<UiKit> ui_;
+  std::unique_ptr<Canvas> coarse_;               ///< at half the size, where it is drawn so
   std::shared_ptr<const LoadedObject> dressed_;  ///< what the stage shows
   std::optional<double> press_at_first_m_;
   draw::Camera camera_;

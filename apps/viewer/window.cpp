@@ -12,10 +12,15 @@
 #include <string>
 #include <utility>
 
+#include "canvas.h"
+
 namespace nade::viewer {
 namespace {
 
 constexpr double kLongestStep_s = 0.1;
+/// Where so many first frames took longer than this each, the scene is drawn coarsely.
+constexpr std::size_t kFramesToJudge = 12;
+constexpr double kSlowFrame_s = 1.0 / 15.0;
 
 /// What GLFW said last.
 std::string& last_complaint() {
@@ -185,11 +190,15 @@ Result<Window> open_window(const Run& run, Input& input) {
 Status loop(GLFWwindow* window, Viewer& viewer, const Run& run, Input& input) {
   ScriptPlayer script(run.script);
   const bool scripted = !run.script.empty();
-  double before_s = glfwGetTime();
+  const double start_s = glfwGetTime();
+  double before_s = start_s;
   for (std::size_t i = 0; glfwWindowShouldClose(window) == 0; ++i) {
     const double now_s = glfwGetTime();
     input.start_frame(scripted ? kFixedStep_s : std::clamp(now_s - before_s, 1e-4, kLongestStep_s));
     before_s = now_s;
+    if (!scripted && i == kFramesToJudge && now_s - start_s > kFramesToJudge * kSlowFrame_s) {
+      viewer.desk().coarse = true;
+    }
     glfwGetFramebufferSize(window, &input.width, &input.height);
     glfwPollEvents();
     const Result<std::vector<Event>> events = script.next(viewer.ui());
