@@ -259,6 +259,20 @@ void expect_tidy(const UiKit& ui) {
   }
 }
 
+TEST_F(ViewerPictureTest, ControlsGrowWithSmallPixels) {
+  ViewerSetup setup = setup_of("plane");
+  setup.scale = 2.0F;
+  Result<HeadlessViewer> headless = HeadlessViewer::create(std::move(setup), 2560, 1440);
+  ASSERT_TRUE(headless.ok());
+  headless->frame({}, Drawing::controls);
+  const Widget* const button = headless->viewer().ui().find("method:none");
+  ASSERT_NE(button, nullptr);
+  EXPECT_GT(button->bottom - button->top, 40.0F);
+  EXPECT_EQ(headless->viewer().viewport().height % 2, 0);
+  EXPECT_NEAR(headless->viewer().viewport().aspect(), layout_of(1280, 720, true).scene.aspect(),
+              0.01);
+}
+
 TEST_F(ViewerPictureTest, NothingOverlaps) {
   Driven driven(setup_of("plane"));
   driven.play("0 move 640 320", 2);

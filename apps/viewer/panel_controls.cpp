@@ -152,7 +152,7 @@ void share_slider(UiKit& ui, const char* label, double& value, float low, float 
 }
 
 void mouse_hand_section(UiKit& ui, Desk& desk) {
-  ui.heading("Hand of the mouse");
+  ui.heading("Mouse hand");
   MouseHandSettings& hand = desk.session.mouse_hand().settings();
   const float width = in_row(2);
   for (const Handedness side : {Handedness::left, Handedness::right}) {

@@ -34,7 +34,7 @@ constexpr std::array<Plot, kFigureCount> kPlots{{
 
 std::string as_text(const std::optional<double>& value, const char* unit) {
   if (!value) return "–";
-  return fmt::format("{:.{}f} {}", *value, *value < 99.95 ? 1 : 0, unit);
+  return fmt::format("{:.{}f}{}{}", *value, *value < 99.95 ? 1 : 0, *unit == '\0' ? "" : " ", unit);
 }
 
 void text_at_right(const std::string& text) {
@@ -67,25 +67,35 @@ struct Row {
   std::optional<double> Metrics::*value;
   const char* unit;
   const char* tip;
+  std::size_t frames_at_least = 0;  ///< that press, before it tells anything
 };
 
-constexpr std::array<Row, 8> kRows{{
+constexpr std::array<Row, 7> kRows{{
     {"sum:penetration-max", "penetration max", &Metrics::penetration_max_mm, "mm",
      "The deepest penetration of all frames"},
     {"sum:penetration-mean", "penetration mean", &Metrics::penetration_mean_mm, "mm",
      "Of the deepest skin, over the frames that press"},
     {"sum:gap", "gap p95", &Metrics::part_gap_p95_mm, "mm",
      "95 of 100 pressed parts are nearer to the surface than this"},
-    {"sum:contact", "in contact", &Metrics::contact_ratio, "",
-     "The share of pressing frames in which some corrected skin is within 2 mm of the surface"},
     {"sum:bend", "bend median", &Metrics::bend_added_median_deg, "°",
      "Bend that the correction added to the finger joints"},
     {"sum:pop", "pop max", &Metrics::pop_max_mm, "mm", "The largest sudden motion of all frames"},
     {"sum:amplification", "amplification max", &Metrics::amplification_max, "×",
      "The fastest corrected joint against the fastest tracked one"},
     {"sum:lag", "lag", &Metrics::linkage_lag_ms, "ms",
-     "How much later the corrected palm moves than the tracked one"},
+     "How much later the corrected palm moves than the tracked one, once it has pressed for a "
+     "while",
+     200},
 }};
+
+void draw_row(UiKit& ui, const char* name, const char* label, const std::string& value,
+              const char* tip) {
+  ImGui::BeginGroup();
+  ImGui::TextUnformatted(label);
+  text_at_right(value);
+  ImGui::EndGroup();
+  ui.explain(name, tip);
+}
 
 }  // namespace
 
@@ -103,22 +113,20 @@ void draw_figures(UiKit& ui, Desk& desk, const Layout& layout) {
   ui.heading("Since the start");
   const Metrics& running = figures.running();
   for (const Row& row : kRows) {
-    ImGui::BeginGroup();
-    ImGui::TextUnformatted(row.label);
-    text_at_right(as_text(running.*row.value, row.unit));
-    ImGui::EndGroup();
-    ui.explain(row.name, row.tip);
+    const bool early = running.pressing_frames < row.frames_at_least;
+    draw_row(ui, row.name, row.label, as_text(early ? std::nullopt : running.*row.value, row.unit),
+             row.tip);
   }
-  ImGui::BeginGroup();
-  ImGui::TextUnformatted("solve median");
-  text_at_right(as_text(figures.solve_us_median(), "µs"));
-  ImGui::EndGroup();
-  ui.explain("sum:solve", "What the correction of a hand takes on this machine");
-  ImGui::BeginGroup();
-  ImGui::TextUnformatted("frames, pressing");
-  text_at_right(fmt::format("{}, {}", running.frames, running.pressing_frames));
-  ImGui::EndGroup();
-  ui.explain("sum:frames", "Frames that were measured, and those in which the person presses");
+  std::optional<double> contact_percent;
+  if (running.contact_ratio) contact_percent = 100.0 * *running.contact_ratio;
+  draw_row(ui, "sum:contact", "in contact", as_text(contact_percent, "%"),
+           "The share of pressing frames in which some corrected skin is within 2 mm of the "
+           "surface");
+  draw_row(ui, "sum:solve", "solve median", as_text(figures.solve_us_median(), "µs"),
+           "What the correction of a hand takes on this machine");
+  draw_row(ui, "sum:frames", "frames, pressing",
+           fmt::format("{}, {}", running.frames, running.pressing_frames),
+           "Frames that were measured, and those in which the person presses");
   if (ui.button("figures:restart", "measure anew", UiKit::Lit::no, -1.0F,
                 "Forgets the figures so far  (Z)")) {
     figures.restart();

@@ -13,6 +13,7 @@ namespace {
 using Lit = UiKit::Lit;
 
 constexpr float kButton = 34.0F;
+constexpr float kPadding = 12.0F;
 constexpr int kControlsWidth = 292;
 constexpr int kFiguresWidth = 236;
 constexpr int kFootHeight = 46;
@@ -62,7 +63,7 @@ void timeline(UiKit& ui, Session& session) {
   ImGui::SameLine();
   if (ui.button("step:ahead", "|▶", Lit::no, kButton, "One frame on  (right)")) session.step(1);
   ImGui::SameLine();
-  scrub_bar(ui, session, ImGui::GetContentRegionAvail().x - 130.0F);
+  scrub_bar(ui, session, ImGui::GetContentRegionAvail().x - 170.0F);
   ImGui::SameLine();
   speed_button(ui, playback);
   ImGui::SameLine();
@@ -94,7 +95,7 @@ void draw_foot(UiKit& ui, Desk& desk, const Layout& layout) {
                            static_cast<float>(layout.scene.y + layout.scene.height)});
   ImGui::SetNextWindowSize(
       {static_cast<float>(layout.scene.width), static_cast<float>(layout.foot_height)});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {12.0F, 10.0F});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {kPadding, 10.0F});
   ImGui::Begin("foot", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav);
@@ -103,9 +104,9 @@ void draw_foot(UiKit& ui, Desk& desk, const Layout& layout) {
   } else {
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("Move the mouse over the object; the wheel presses. Right drag turns.");
-    ImGui::SameLine(ImGui::GetWindowWidth() - 12.0F - 72.0F);
-    if (ui.button("help", "? keys", Lit::no, 72.0F, "All keys  (?)")) desk.help = !desk.help;
   }
+  ImGui::SameLine(ImGui::GetWindowWidth() - kPadding - kButton);
+  if (ui.button("help", "?", Lit::no, kButton, "All keys  (?)")) desk.help = !desk.help;
   ImGui::End();
   ImGui::PopStyleVar();
 }

@@ -12,13 +12,15 @@ constexpr ImGuiWindowFlags kOverFlags = ImGuiWindowFlags_NoDecoration | ImGuiWin
                                         ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoNav |
                                         ImGuiWindowFlags_NoSavedSettings;
 
+constexpr float kKeysWidth = 96.0F;
+
 struct KeyLine {
   const char* keys;
   const char* what;
 };
 
 constexpr std::array<KeyLine, 10> kHandKeys{{
-    {"mouse", "moves the hand over the object"},
+    {"mouse", "moves the hand"},
     {"wheel", "presses deeper, or lifts"},
     {"Q  E", "turn"},
     {"W  S", "fingertips up, down"},
@@ -33,10 +35,10 @@ constexpr std::array<KeyLine, 8> kSceneKeys{{
     {"O", "next object"},
     {"M", "next method"},
     {"B", "tracked, corrected, both"},
-    {"1 … 5", "views; 5 is first person"},
+    {"1 … 5", "views; 5: first person"},
     {"right drag", "turns the view"},
-    {"middle drag", "moves the view (or Shift, right drag)"},
-    {"+  -", "nearer, farther (or Ctrl, wheel)"},
+    {"middle drag", "moves it (or Shift and right)"},
+    {"+  -", "nearer, farther (Ctrl, wheel)"},
     {"Tab", "hides the panels"},
 }};
 constexpr std::array<KeyLine, 5> kClipKeys{{
@@ -50,9 +52,11 @@ constexpr std::array<KeyLine, 5> kClipKeys{{
 template <std::size_t count>
 void key_lines(UiKit& ui, const char* title, const std::array<KeyLine, count>& lines) {
   ui.heading(title);
+  const float left = ImGui::GetCursorPosX();
   for (const KeyLine& line : lines) {
     ImGui::TextColored({0.45F, 0.78F, 0.90F, 1.0F}, "%s", line.keys);
-    ImGui::SameLine(108.0F);
+    ImGui::SameLine();
+    ImGui::SetCursorPosX(left + kKeysWidth);
     ImGui::TextUnformatted(line.what);
   }
 }
@@ -96,9 +100,14 @@ void draw_help(UiKit& ui, Desk& desk, const Layout& layout) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 6.0F);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {18.0F, 14.0F});
   ImGui::Begin("keys", nullptr, kOverFlags);
-  key_lines(ui, "The hand of the mouse", kHandKeys);
-  key_lines(ui, "The scene", kSceneKeys);
-  key_lines(ui, "A recording", kClipKeys);
+  ImGui::BeginGroup();
+  key_lines(ui, "Mouse hand", kHandKeys);
+  ImGui::EndGroup();
+  ImGui::SameLine(0.0F, 28.0F);
+  ImGui::BeginGroup();
+  key_lines(ui, "Scene", kSceneKeys);
+  key_lines(ui, "Recording", kClipKeys);
+  ImGui::EndGroup();
   ImGui::Spacing();
   ImGui::TextDisabled("Drop a recording or a mesh onto the window to open it.");
   if (ui.button("help:close", "close", UiKit::Lit::no, -1.0F, "Back to the scene  (? or Esc)")) {

@@ -32,7 +32,7 @@ void set_style() {
   style.FramePadding = {7.0F, 4.0F};
   style.ItemSpacing = {6.0F, 6.0F};
   style.GrabRounding = 4.0F;
-  style.GrabMinSize = 12.0F;
+  style.GrabMinSize = 9.0F;
   style.PopupRounding = 5.0F;
   style.ScrollbarSize = 10.0F;
   ImVec4* const colors = style.Colors;
@@ -46,7 +46,7 @@ void set_style() {
   colors[ImGuiCol_Button] = grey(0.22F);
   colors[ImGuiCol_ButtonHovered] = grey(0.30F);
   colors[ImGuiCol_ButtonActive] = kAccent;
-  colors[ImGuiCol_SliderGrab] = kAccentBright;
+  colors[ImGuiCol_SliderGrab] = kAccent;
   colors[ImGuiCol_SliderGrabActive] = kAccentBright;
   colors[ImGuiCol_CheckMark] = kAccentBright;
   colors[ImGuiCol_Separator] = grey(0.24F);
@@ -68,16 +68,18 @@ ImFont* add_font(const char* file, float size) {
 
 }  // namespace
 
-Result<std::unique_ptr<UiKit>> UiKit::create() {
+Result<std::unique_ptr<UiKit>> UiKit::create(float scale) {
   std::unique_ptr<UiKit> kit(new UiKit);
+  kit->scale_ = scale;
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;
   io.LogFilename = nullptr;
-  kit->normal_ = add_font("DejaVuSans.ttf", kTextSize);
-  kit->small_ = add_font("DejaVuSans.ttf", kSmallSize);
-  kit->bold_ = add_font("DejaVuSans-Bold.ttf", kTextSize);
+  kit->normal_ = add_font("DejaVuSans.ttf", scale * kTextSize);
+  kit->small_ = add_font("DejaVuSans.ttf", scale * kSmallSize);
+  kit->bold_ = add_font("DejaVuSans-Bold.ttf", scale * kTextSize);
+  io.FontGlobalScale = 1.0F / scale;  // sharp letters in a coordinate system of points
   set_style();
   if (!ImGui_ImplOpenGL3_Init("#version 450 core")) {
     return Error{ErrorCode::not_found, "the window's controls need the library libGL.so.1"};
@@ -92,11 +94,13 @@ UiKit::~UiKit() {
 
 void UiKit::begin(const Input& input) {
   ImGuiIO& io = ImGui::GetIO();
-  io.DisplaySize = {static_cast<float>(input.width), static_cast<float>(input.height)};
+  io.DisplaySize = {static_cast<float>(input.width) / scale_,
+                    static_cast<float>(input.height) / scale_};
+  io.DisplayFramebufferScale = {scale_, scale_};
   io.DeltaTime = static_cast<float>(std::max(input.step_s, 1e-4));
   const bool inside = input.inside;
-  const ImVec2 pointer{inside ? static_cast<float>(input.x) : -FLT_MAX,
-                       inside ? static_cast<float>(input.y) : -FLT_MAX};
+  const ImVec2 pointer{inside ? static_cast<float>(input.x) / scale_ : -FLT_MAX,
+                       inside ? static_cast<float>(input.y) / scale_ : -FLT_MAX};
 #if IMGUI_VERSION_NUM >= 18700
   io.AddMousePosEvent(pointer.x, pointer.y);
   for (int i = 0; i < 3; ++i) io.AddMouseButtonEvent(i, input.buttons[static_cast<std::size_t>(i)]);
@@ -126,7 +130,8 @@ bool UiKit::takes_pointer() const { return ImGui::GetIO().WantCaptureMouse; }
 void UiKit::explain(std::string_view name, std::string_view tip) {
   const ImVec2 low = ImGui::GetItemRectMin();
   const ImVec2 high = ImGui::GetItemRectMax();
-  widgets_.push_back({std::string(name), low.x, low.y, high.x, high.y});
+  widgets_.push_back(
+      {std::string(name), scale_ * low.x, scale_ * low.y, scale_ * high.x, scale_ * high.y});
   if (!ImGui::IsItemHovered()) return;
   hovered_now_ = true;
   if (hovered_ != name) {

@@ -26,8 +26,9 @@ struct Widget {
 /// events so that a script does exactly what a person does.
 class UiKit {
  public:
-  /// The error says what the context lacks.
-  [[nodiscard]] static Result<std::unique_ptr<UiKit>> create();
+  /// `scale`: pixels of ours for each of the size that controls are laid out in, > 0. The error
+  /// says what the context lacks.
+  [[nodiscard]] static Result<std::unique_ptr<UiKit>> create(float scale);
   UiKit(const UiKit&) = delete;
   UiKit& operator=(const UiKit&) = delete;
   ~UiKit();
@@ -52,12 +53,14 @@ class UiKit {
   /// All widgets of the last frame.
   [[nodiscard]] const std::vector<Widget>& widgets() const { return last_widgets_; }
   [[nodiscard]] const Widget* find(std::string_view name) const;
+  [[nodiscard]] float scale() const { return scale_; }
   [[nodiscard]] ImFont* small_font() const { return small_; }
   [[nodiscard]] ImFont* bold_font() const { return bold_; }
 
  private:
   UiKit() = default;
 
+  float scale_ = 1.0F;
   ImFont* normal_ = nullptr;
   ImFont* small_ = nullptr;
   ImFont* bold_ = nullptr;

@@ -13,6 +13,23 @@ constexpr double kHighest_m = -0.06;
 constexpr double kDeepest_m = 0.04;
 constexpr double kNudgePerPixel_m = 0.0005;  // in first person, where the eye goes with the hand
 
+/// The layout in the controls' own coordinates.
+Layout scaled(const Input& input, const UiKit& ui, bool panels) {
+  return layout_of(static_cast<int>(static_cast<float>(input.width) / ui.scale()),
+                   static_cast<int>(static_cast<float>(input.height) / ui.scale()), panels);
+}
+
+/// Never beyond the window, however it is rounded.
+Viewport in_pixels(const Viewport& laid_out, const Input& input, float scale) {
+  const auto pixels = [scale](int length) {
+    return static_cast<int>(scale * static_cast<float>(length));
+  };
+  Viewport viewport{pixels(laid_out.x), pixels(laid_out.y), 1, 1};
+  viewport.width = std::clamp(pixels(laid_out.width), 1, std::max(1, input.width - viewport.x));
+  viewport.height = std::clamp(pixels(laid_out.height), 1, std::max(1, input.height - viewport.y));
+  return viewport;
+}
+
 }  // namespace
 
 Viewer::Viewer(ViewerSetup setup, draw::Renderer renderer)
@@ -34,13 +51,14 @@ Result<std::unique_ptr<Viewer>> Viewer::create(ViewerSetup setup) {
   Result<draw::Renderer> renderer = draw::Renderer::create();
   if (!renderer) return renderer.error();
   const std::optional<std::string> object = setup.object;
+  const float scale = setup.scale;
   const std::optional<Placement> placement = setup.placement;
   const std::optional<std::string> recording = setup.recording;
   std::unique_ptr<Viewer> viewer(new Viewer(std::move(setup), std::move(renderer).value()));
   Result<draw::Stage> stage = draw::Stage::create(viewer->renderer_, viewer->session_.meshes());
   if (!stage) return stage.error();
   viewer->stage_.emplace(std::move(stage).value());
-  Result<std::unique_ptr<UiKit>> ui = UiKit::create();
+  Result<std::unique_ptr<UiKit>> ui = UiKit::create(scale);
   if (!ui) return ui.error();
   viewer->ui_ = std::move(ui).value();
   const Status shown = viewer->session_.show_object(object.value_or("dog"), placement);
@@ -55,8 +73,8 @@ Result<std::unique_ptr<Viewer>> Viewer::create(ViewerSetup setup) {
 }
 
 void Viewer::frame(const Input& input, unsigned framebuffer, Drawing drawing) {
-  const Layout layout = layout_of(input.width, input.height, desk_.panels);
-  viewport_ = layout.scene;
+  const Layout layout = scaled(input, *ui_, desk_.panels);
+  viewport_ = in_pixels(layout.scene, input, ui_->scale());
   ui_->begin(input);
   if (desk_.panels) {
     draw_controls(*ui_, desk_, layout);
@@ -66,7 +84,7 @@ void Viewer::frame(const Input& input, unsigned framebuffer, Drawing drawing) {
   draw_notices(*ui_, desk_, layout);
   draw_help(*ui_, desk_, layout);
   take_keys(desk_, input);
-  take_pointer(input, layout);
+  take_pointer(input);
   for (const std::string& path : input.dropped) desk_.open(path);
 
   const bool was_loading = session_.loading();
@@ -88,9 +106,9 @@ void Viewer::frame(const Input& input, unsigned framebuffer, Drawing drawing) {
   ui_->end(framebuffer);
 }
 
-void Viewer::take_pointer(const Input& input, const Layout& layout) {
+void Viewer::take_pointer(const Input& input) {
   const bool over_scene =
-      input.inside && !ui_->takes_pointer() && layout.scene.contains(input.x, input.y);
+      input.inside && !ui_->takes_pointer() && viewport_.contains(input.x, input.y);
   if (dragging_ && !input.down(*dragging_)) dragging_.reset();
   if (!dragging_ && over_scene) {
     for (const Button button : {Button::right, Button::middle, Button::left}) {
@@ -103,7 +121,7 @@ void Viewer::take_pointer(const Input& input, const Layout& layout) {
     // The left button is the hand's, but a recording's hand needs no mouse.
     const bool turns = *dragging_ == Button::right || !with_mouse;
     if (pans) {
-      desk_.camera.pan(input.moved_x, input.moved_y, layout.scene.height);
+      desk_.camera.pan(input.moved_x, input.moved_y, viewport_.height);
     } else if (turns) {
       desk_.camera.orbit(input.moved_x, input.moved_y);
     }
@@ -164,7 +182,7 @@ void Viewer::draw_scene(int window_height, unsigned framebuffer) {
   target.y = window_height - viewport_.y - viewport_.height;
   target.width = viewport_.width;
   target.height = viewport_.height;
-  frame.pixel_scale = desk_.coarse ? 0.5F : 1.0F;
+  frame.pixel_scale = ui_->scale() * (desk_.coarse ? 0.5F : 1.0F);
   const draw::Scene& scene = stage_->arrange(frame);
   if (desk_.coarse) {
     draw_coarsely(scene, target);

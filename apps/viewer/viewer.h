@@ -23,6 +23,7 @@ struct ViewerSetup {
   std::optional<double> press_m;  ///< of a recording; without one, of the mouse's hand
   draw::Overlays overlays;
   draw::Shown shown = draw::Shown::corrected;
+  float scale = 1.0F;  ///< of controls, for screens with small pixels
 };
 
 /// Whether a frame's scene is drawn; what happens in it is the same.
@@ -53,7 +54,7 @@ class Viewer {
 
  private:
   Viewer(ViewerSetup setup, draw::Renderer renderer);
-  void take_pointer(const Input& input, const Layout& layout);
+  void take_pointer(const Input& input);
   [[nodiscard]] Aim aim(const Input& input) const;
   void dress_object();
   void draw_scene(int window_height, unsigned framebuffer);

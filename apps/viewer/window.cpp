@@ -164,6 +164,7 @@ Result<Window> open_window(const Run& run, Input& input) {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_DEPTH_BITS, 24);
+  glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
   Window window(glfwCreateWindow(run.width, run.height, "nade", nullptr, nullptr));
   if (!window) {
     return Error{ErrorCode::not_found,
@@ -234,6 +235,9 @@ Status run_window(ViewerSetup setup, const Run& run) {
   Input input;
   const Result<Window> window = open_window(run, input);
   if (!window) return window.error();
+  float aside = 1.0F;
+  glfwGetWindowContentScale(window->get(), &setup.scale, &aside);
+  setup.scale = std::clamp(setup.scale, 1.0F, 4.0F);
   Result<std::unique_ptr<Viewer>> viewer = Viewer::create(std::move(setup));
   if (!viewer) return viewer.error();
   return loop(window->get(), **viewer, run, input);
