@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -85,7 +86,7 @@ struct BundledStroke {
 };
 constexpr std::array<BundledStroke, 3> kBundled{{{"Plane", "plane", "", 0.0, 0.30},
                                                  {"Sphere", "sphere", "", 0.0, 0.25},
-                                                 {"Dog", "dog", "", 0.0, 0.30}}};
+                                                 {"Dog", "dog", "head", 0.0, 0.10}}};
 constexpr double kBundledDepth = 0.02;
 
 Result<FigureRow> bundled_row(const BundledStroke& stroke, const draw::HandMeshes& meshes,
@@ -95,7 +96,7 @@ Result<FigureRow> bundled_row(const BundledStroke& stroke, const draw::HandMeshe
   SynthOptions options;
   options.place = stroke.place;
   options.depth_m = kBundledDepth;
-  options.tilt_rad = stroke.tilt_deg * 3.14159265358979 / 180.0;
+  options.tilt_rad = stroke.tilt_deg * std::numbers::pi / 180.0;
   options.duration_s = 4.0;
   const Result<HandPose> relaxed = load_relaxed_hand(options.side);
   if (!relaxed) return relaxed.error();

@@ -20,7 +20,7 @@ using draw::Color;
 constexpr int kWidth = 3840;
 constexpr int kMargin = 64;
 constexpr int kGap = 24;
-constexpr int kRowTitle = 200;
+constexpr int kRowTitle = 230;
 constexpr int kHeader = 190;
 constexpr int kLegend = 270;
 constexpr double kPanelAspect = 1.16;
@@ -96,7 +96,7 @@ draw::Camera hand_camera(const FigureRow& row) {
   out.y() = 0.0;
   out = out.norm() > 1e-6 ? Vec3(out.normalized()) : Vec3::UnitZ();
   out = std::cos(kAbove) * out + std::sin(kAbove) * Vec3::UnitY();
-  const double distance = 0.96 * ball.radius_m / std::sin(0.5 * kView);
+  const double distance = 0.87 * ball.radius_m / std::sin(0.5 * kView);
   return draw::looking_at(ball.center + distance * out, ball.center, kView, kPanelAspect);
 }
 
@@ -186,9 +186,9 @@ class Sheet {
   /// One sign of the legend and what it means; where the next may begin.
   template <class Sign>
   float draw_entry(float x, float y, const std::string& meaning, const Sign& sign) {
-    sign(x, y + 24.0F);
-    canvas_.text({x + 96.0F, y}, meaning, 40.0F, kInk);
-    return x + 96.0F + draw::text_width(meaning, 40.0F) + 64.0F;
+    sign(x, y + 26.0F);
+    canvas_.text({x + 104.0F, y}, meaning, 40.0F, kInk);
+    return x + 104.0F + draw::text_width(meaning, 40.0F) + 64.0F;
   }
 
   void draw_legend() {

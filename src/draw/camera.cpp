@@ -75,8 +75,9 @@ Orbit framed(View view, const Vec3& center, double radius_m) {
       break;
     case View::three_quarter:
     case View::first_person:
-      orbit.azimuth_rad = -52.0 * kDegree;
-      orbit.elevation_rad = 24.0 * kDegree;
+      // Thumb and fingertips of a right hand that points along -Z.
+      orbit.azimuth_rad = -130.0 * kDegree;
+      orbit.elevation_rad = 22.0 * kDegree;
       break;
   }
   return orbit;

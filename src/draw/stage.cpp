@@ -16,8 +16,10 @@ using Vec3f = Eigen::Vector3f;
 /// as clear as it gets.
 constexpr double kGhostFrom = 0.0005;
 constexpr double kGhostFull = 0.006;
-constexpr float kGhostOpacity = 0.55F;
-constexpr float kGlassOpacity = 0.45F;
+constexpr float kGhostOpacity = 0.62F;
+/// Of that, where it has sunk into the object: which is what it is shown for.
+constexpr float kGhostBehind = 0.75F;
+constexpr float kGlassOpacity = 0.62F;
 
 double farthest_joint(const HandPose& a, const HandPose& b) {
   double farthest = 0.0;
@@ -140,6 +142,7 @@ struct Stage::Impl {
     ghost.tint = diagram_colors().ghost;
     const double clear = std::clamp((apart - kGhostFrom) / (kGhostFull - kGhostFrom), 0.0, 1.0);
     ghost.opacity = kGhostOpacity * static_cast<float>(clear);
+    ghost.shows_behind = kGhostBehind;
     scene.instances.push_back(ghost);
   }
 

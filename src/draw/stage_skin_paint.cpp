@@ -100,9 +100,9 @@ class Painter {
 
   /// The colour of a spot, linear light.
   [[nodiscard]] Color paint(const Spot& spot) const {
-    Color color(0.845F, 0.655F, 0.545F);  // sRGB, the back of the hand
+    Color color(0.915F, 0.735F, 0.635F);  // sRGB, the back of the hand
     const float palmar = smooth_step(0.15F, -0.65F, spot.dorsal);
-    mix(color, {0.885F, 0.655F, 0.575F}, palmar);
+    mix(color, {0.945F, 0.735F, 0.665F}, palmar);
     const float patches =
         0.6F * noise(spot.point, 0.016F * scale_) + 0.4F * noise(spot.point, 0.005F * scale_);
     color += 0.018F * patches * Color(1.0F, -0.3F, -0.4F);
@@ -148,7 +148,7 @@ class Painter {
   void paint_digit(Digit digit, const Spot& spot, float palmar, Color& color) const {
     const float own = std::min(1.0F, spot.digit[index_of(digit)]);
     const DigitJoints joints = joints_of(digit);
-    const Color flushed(0.80F, 0.52F, 0.455F);
+    const Color flushed(0.87F, 0.60F, 0.53F);
     const float dorsal = 1.0F - palmar;
     for (std::size_t j = index_of(joints.metacarpal) + 1; j < index_of(joints.tip); ++j) {
       const Frame& joint = frames_[j];
@@ -169,7 +169,7 @@ class Painter {
     const Fingertip& tip = tips_[index_of(digit)];
     const Vec3f local = frame(joints.tip).local(spot.point);
     const float from_end = (tip.end + local.z()) / scale_;
-    mix(color, {0.86F, 0.55F, 0.495F},
+    mix(color, {0.925F, 0.635F, 0.58F},
         own * (0.35F + 0.35F * palmar) * smooth_step(0.020F, 0.006F, from_end));
     paint_nail(digit, spot, local, color);
   }
@@ -189,7 +189,7 @@ class Painter {
         std::pow(std::pow(std::abs(u), 3.5F) + std::pow(std::abs(w), 3.5F), 1 / 3.5F);
     const float on_back = smooth_step(0.05F, 0.30F, facing);
     mix(color, {0.70F, 0.46F, 0.40F}, 0.55F * on_back * bump(edge - 1.02F, 0.07F));
-    Color nail(0.905F, 0.715F, 0.66F);
+    Color nail(0.955F, 0.785F, 0.735F);
     mix(nail, {0.95F, 0.86F, 0.81F}, 0.8F * smooth_step(0.80F, 0.90F, v));
     mix(nail, {0.955F, 0.915F, 0.875F}, smooth_step(0.17F, 0.09F, v));
     mix(color, nail, on_back * smooth_step(1.02F, 0.92F, edge));
