@@ -13,9 +13,12 @@ constexpr std::size_t kFramesAtLeast = 60;
 
 struct HeadlessViewer::Impl {
   draw::OffscreenContext context;
-  std::unique_ptr<Canvas> canvas;
+  std::optional<Canvas> canvas;
   std::unique_ptr<Viewer> viewer;
   Input input;
+
+  Impl(draw::OffscreenContext current, std::unique_ptr<Viewer> made)
+      : context(std::move(current)), viewer(std::move(made)) {}
 };
 
 HeadlessViewer::HeadlessViewer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -29,10 +32,8 @@ Result<HeadlessViewer> HeadlessViewer::create(ViewerSetup setup, int width, int 
   setup.session.timing = Timing::none;
   Result<std::unique_ptr<Viewer>> viewer = Viewer::create(std::move(setup));
   if (!viewer) return viewer.error();
-  auto impl = std::make_unique<Impl>(Impl{std::move(context).value(),
-                                          std::make_unique<Canvas>(width, height),
-                                          std::move(viewer).value(),
-                                          {}});
+  auto impl = std::make_unique<Impl>(std::move(context).value(), std::move(viewer).value());
+  impl->canvas.emplace(width, height);
   impl->input.width = width;
   impl->input.height = height;
   return HeadlessViewer(std::move(impl));

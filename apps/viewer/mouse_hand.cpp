@@ -10,19 +10,19 @@
 namespace nade::viewer {
 namespace {
 
-constexpr double kSlowest_hz = 5.0;       // cut-off of a hand at rest: steadies single pixels
-constexpr double kHzPerSpeed = 60.0;      // and how it rises, so that a stroke hardly lags
-constexpr double kSpeedCutoff_hz = 4.0;   // of the speed that decides
-constexpr double kFastest_m_per_s = 2.5;  // over a silhouette the goal leaps, a hand does not
-constexpr double kNormal_s = 0.05;        // time in which the hand turns with the surface
+constexpr double kSlowest_hz = 5.0;      // cut-off of a hand at rest: steadies single pixels
+constexpr double kHzPerSpeed = 60.0;     // and how it rises, so that a stroke hardly lags
+constexpr double kSpeedCutoff_hz = 4.0;  // of the speed that decides
+constexpr double kFastestSpeed = 2.5;    // m/s: over a silhouette the goal leaps, a hand does not
+constexpr double kNormal_s = 0.05;       // time in which the hand turns with the surface
 constexpr double kHeading_s = 0.12;
 constexpr double kMotionHeading_s = 0.35;
 /// One's hand comes from one's side, not from one's middle.
 constexpr double kInward_rad = 30.0 * std::numbers::pi / 180.0;
-constexpr double kMoving_m_per_s = 0.04;  // slower than this has no direction
-constexpr double kHold_s = 0.045;         // time in which wheel and keys take effect
-constexpr double kNear_m = 0.5;           // how far the surface is looked for
-constexpr double kLetGo_m = 0.03;         // so far off the surface the hand presses no more
+constexpr double kMovingSpeed = 0.04;  // m/s: slower than this has no direction
+constexpr double kHold_s = 0.045;      // time in which wheel and keys take effect
+constexpr double kNear_m = 0.5;        // how far the surface is looked for
+constexpr double kLetGo_m = 0.03;      // so far off the surface the hand presses no more
 
 /// The share of the way that a first-order filter goes in a step.
 double share_of(double step_s, double time_constant_s) {
@@ -98,7 +98,7 @@ void MouseHand::follow(double step_s) {
   const double cutoff_hz = kSlowest_hz + kHzPerSpeed * velocity_.norm();
   const double share = share_of(step_s, time_constant(cutoff_hz));
   Vec3 step = share * (goal_.point - point_);
-  const double longest = kFastest_m_per_s * step_s;
+  const double longest = kFastestSpeed * step_s;
   if (step.norm() > longest) step *= longest / step.norm();
   point_ += step;
   approach(off_m_, goal_.off_m, share);
@@ -121,7 +121,7 @@ void MouseHand::take_heading(const Aim& aim, double step_s) {
       Quat(Eigen::AngleAxisd(by_motion ? 0.0 : inward_rad, normal_)) * tangent_part(wish, normal_);
   const Vec3 kept = tangent_part(ahead_, normal_);
   ahead_ = kept.norm() > 1e-3 ? Vec3(kept.normalized()) : Vec3(normal_.unitOrthogonal());
-  if (goal.norm() < (by_motion ? kMoving_m_per_s : 0.1)) return;
+  if (goal.norm() < (by_motion ? kMovingSpeed : 0.1)) return;
   const double away = std::atan2(ahead_.cross(goal).dot(normal_), ahead_.dot(goal));
   const double share = settled_ ? share_of(step_s, by_motion ? kMotionHeading_s : kHeading_s) : 1.0;
   settled_ = true;

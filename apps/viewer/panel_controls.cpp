@@ -67,6 +67,40 @@ void method_section(UiKit& ui, Desk& desk) {
   }
 }
 
+/// The colour of what the check box before it shows.
+void swatch(const draw::Color& linear) {
+  const draw::Color shown = linear.array().max(0.0F).pow(1.0F / 2.2F);
+  const ImVec2 high = ImGui::GetItemRectMax();
+  const ImVec2 low = ImGui::GetItemRectMin();
+  ImGui::GetWindowDrawList()->AddCircleFilled(
+      {high.x + 9.0F, 0.5F * (low.y + high.y)}, 4.0F,
+      ImGui::ColorConvertFloat4ToU32({shown.x(), shown.y(), shown.z(), 1.0F}));
+}
+
+void overlay_checks(UiKit& ui, draw::Overlays& overlays) {
+  const draw::DiagramColors colors = draw::diagram_colors();
+  const float second = 0.5F * ImGui::GetContentRegionAvail().x + ImGui::GetStyle().WindowPadding.x;
+  ui.check("overlay:rays", "rays", overlays.rays, "From each sunken part out to the surface");
+  swatch(colors.ray);
+  ImGui::SameLine(second);
+  ui.check("overlay:held-ray", "held ray", overlays.held_ray,
+           "The palm's ray, which keeps the direction it had when the palm went in");
+  swatch(colors.held_ray);
+  ui.check("overlay:contacts", "contacts", overlays.contacts,
+           "Points of the surface that are touched, and where the parts go");
+  swatch(colors.target);
+  ImGui::SameLine(second);
+  ui.check("overlay:normals", "normals", overlays.normals,
+           "Of the surface where it is touched, and of the back of the hand");
+  swatch(colors.normal);
+  ui.check("overlay:penetration", "depth on skin", overlays.penetration,
+           "Colours the skin where it lies in the object");
+  ImGui::SameLine(second);
+  ui.check("overlay:see-through", "see-through", overlays.see_through,
+           "The object like glass, to see what is in it");
+  ui.check("overlay:labels", "labels", overlays.labels, "Names what the other marks are");
+}
+
 void shown_section(UiKit& ui, Desk& desk) {
   ui.heading("Show");
   struct Choice {
@@ -88,23 +122,7 @@ void shown_section(UiKit& ui, Desk& desk) {
       desk.shown = choice.shown;
     }
   }
-  draw::Overlays& overlays = desk.overlays;
-  const float second = 0.5F * ImGui::GetContentRegionAvail().x + ImGui::GetStyle().WindowPadding.x;
-  ui.check("overlay:rays", "rays", overlays.rays, "From each sunken part out to the surface");
-  ImGui::SameLine(second);
-  ui.check("overlay:held-ray", "held ray", overlays.held_ray,
-           "The palm's ray, which keeps the direction it had when the palm went in");
-  ui.check("overlay:contacts", "contacts", overlays.contacts,
-           "Points of the surface that are touched, and where the parts go");
-  ImGui::SameLine(second);
-  ui.check("overlay:normals", "normals", overlays.normals,
-           "Of the surface where it is touched, and of the back of the hand");
-  ui.check("overlay:penetration", "depth on skin", overlays.penetration,
-           "Colours the skin where it lies in the object");
-  ImGui::SameLine(second);
-  ui.check("overlay:see-through", "see-through", overlays.see_through,
-           "The object like glass, to see what is in it");
-  ui.check("overlay:labels", "labels", overlays.labels, "Names what the other marks are");
+  overlay_checks(ui, desk.overlays);
 }
 
 void view_section(UiKit& ui, Desk& desk) {
