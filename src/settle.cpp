@@ -22,7 +22,8 @@ const DigitFreedoms kThumbStiffness{1.0, 1.0, 2.0, 2.0};
 
 /// The skin is kept this far out.
 constexpr double kMargin_m = 0.0002;
-/// Skin farther than this from its plane cannot touch within a step.
+/// Skin farther than this from its plane, and than the hand has moved, does not come to touch it
+/// in the frame.
 constexpr double kRowReach_m = 0.005;
 
 // A part that the person pressed in is drawn to the surface until it is this near, from as far as
@@ -66,9 +67,12 @@ constexpr double kSamePlane_m = 0.0004;
 constexpr double kSamePlaneNextFrame_m = 0.00002;
 /// A pad that is too far is not looked at again until it could have come so much nearer.
 constexpr double kFarSlack_m = 0.02;
+/// A hand that is found anew is got out of the object if it lies no deeper than this.
+constexpr double kDeepest_m = 0.3;
+constexpr double kLongestTurn_rad = 0.3;
+constexpr double kPalmThickness_m = 0.02;
 /// Skin stretches by no more than this when the hand is posed.
 constexpr double kStretch = 1.3;
-constexpr std::size_t kMostRows = 512;
 
 double smoothstep(double from, double to, double x) {
   const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
@@ -171,6 +175,7 @@ class Settling {
 
  private:
   void start();
+  void start_outside();
   void find_rows(const PosedHand& posed, double same_plane_m);
   const PadPlane* plane_of(std::size_t pad, const Vec3& middle_world, double reach_m,
                            double same_plane_m);
@@ -196,6 +201,7 @@ class Settling {
 
   bool fresh_ = false;
   double motion_m_ = 0.0;  ///< of the tracked hand, in the world or against the object
+  double row_reach_m_ = 0.0;
   double sink_m_ = 0.0;
   /// In which the wrist's freedoms are counted: Z along the object's push, X ahead as far as the
   /// surface allows.
@@ -233,9 +239,21 @@ void Settling::start() {
   sink_m_ = options_.softness_m * (1.0 - std::exp(-memory_.height_m / options_.softness_depth_m));
   push_ = memory_.push;
   correction_ = memory_.correction;
+  row_reach_m_ = fresh_ ? kDeepest_m : kRowReach_m + motion_m_;
+  if (fresh_) start_outside();
   frame_ = surface_frame(push_, tracked[Joint::palm].rotation);
   take_step(HandFreedoms::Zero());  // into the range of this frame's pose
   last_ = correction_;
+}
+
+/// A hand that was lost comes back on the side of the object that its palm is nearest to.
+void Settling::start_outside() {
+  const Vec3& palm = model_.tracked[Joint::palm].position;
+  SurfaceHint hint;
+  const std::optional<SurfacePoint> nearest = object_.closest_point(palm, kDeepest_m, hint);
+  if (!nearest || nearest->signed_distance > 0.0) return;
+  push_ = nearest->normal;
+  correction_.palm.shift = nearest->point - palm + model_.scale * kPalmThickness_m * push_;
 }
 
 /// The plane of a pad, if it is near enough to matter: found anew, or as it was.
@@ -248,11 +266,12 @@ const PadPlane* Settling::plane_of(std::size_t pad, const Vec3& middle_world, do
   if (known.clearance_m - away_m > reach_m) return nullptr;
   if (known.plane && away_m <= same_plane_m) return &*known.plane;
   const double scale = placement.scale;
+  const double search_m = reach_m + kFarSlack_m;
   const std::optional<SurfacePoint> nearest =
-      object_.surface().closest_point(middle, (reach_m + kFarSlack_m) / scale, known.hint);
+      object_.surface().closest_point(middle, search_m / scale, known.hint);
   known.middle = middle;
   known.plane.reset();
-  known.clearance_m = nearest ? scale * std::abs(nearest->signed_distance) : reach_m + kFarSlack_m;
+  known.clearance_m = nearest ? scale * nearest->signed_distance : search_m;
   if (!nearest || known.clearance_m > reach_m) return nullptr;
   known.plane = plane_at(*nearest, middle);
   return &*known.plane;
@@ -264,8 +283,8 @@ void Settling::find_rows(const PosedHand& posed, double same_plane_m) {
   const Placement& placement = object_.placement();
   for (std::size_t i = 0; i < flesh_.pads.size(); ++i) {
     const FleshPad& pad = flesh_.pads[i];
-    const double reach_m =
-        kStretch * model_.scale * pad.radius_m + (pad.part ? kPullReach_m : kRowReach_m);
+    const double reach_m = kStretch * model_.scale * pad.radius_m +
+                           std::max(row_reach_m_, pad.part ? kPullReach_m : 0.0);
     const PadPlane* plane = plane_of(i, posed.flesh.position(pad.middle), reach_m, same_plane_m);
     if (!plane) continue;
     const PadPlane world{Vec3::Zero(), placement.to_world(plane->point),
@@ -291,7 +310,7 @@ void Settling::add_rows(const FleshPad& pad, const PadPlane& plane_world, const 
         part.normal = normal;
       }
     }
-    if (gap_m > kRowReach_m || memory_.rows.size() == kMostRows) continue;
+    if (gap_m > row_reach_m_ || memory_.rows.size() == kMostContactRows) continue;
     ContactRow row = row_of(posed, point, normal);
     row.gap_m = gap_m + sink_m_ - kMargin_m;
     memory_.rows.push_back(row);
@@ -300,7 +319,7 @@ void Settling::add_rows(const FleshPad& pad, const PadPlane& plane_world, const 
 
 void Settling::add_pulls(const PosedHand& posed) {
   for (const PartTouch& part : parts_) {
-    if (!part.point || memory_.rows.size() == kMostRows) continue;
+    if (!part.point || memory_.rows.size() == kMostContactRows) continue;
     const double share = smoothstep(kPullStart_m, kPullStart_m + kPullFull_m, part.depth_m) *
                          smoothstep(-kPullReach_m, kPullFade_m - kPullReach_m, -part.gap_m);
     if (share == 0.0) continue;
@@ -375,8 +394,15 @@ SettleProblem Settling::problem() const {
     problem.range.high.segment<4>(first) = model_.ranges[d].high - correction_.bend[d];
   }
 
-  const double slack_m = fresh_ ? 1.0 : kFreeRate_m_per_s * seconds_;
   HandFreedoms rate;
+  if (fresh_) {  // in steps that the planes are good for
+    rate.setConstant(kLongestTurn_rad);
+    rate.head<3>().setConstant(kDeepest_m);
+    problem.rate.low = -rate;
+    problem.rate.high = rate;
+    return problem;
+  }
+  const double slack_m = kFreeRate_m_per_s * seconds_;
   rate.setConstant((kBendRate * motion_m_ + slack_m) / kBendLever_m);
   rate.head<3>().setConstant(kShiftRate * motion_m_ + slack_m);
   rate.segment<3>(3).setConstant((kTurnRate * motion_m_ + slack_m) / kTurnLever_m);
@@ -478,7 +504,7 @@ SettledHand Settling::finish() {
 SettleMemory settle_memory(const HandFlesh& flesh) {
   SettleMemory memory;
   memory.pads.resize(flesh.pads.size());
-  memory.rows.reserve(kMostRows);
+  memory.rows.reserve(kMostContactRows);
   return memory;
 }
 

@@ -187,11 +187,9 @@ class Descent {
     return length;
   }
 
-  static constexpr std::size_t kMostRows = 512;
-
   const SettleProblem& problem_;
-  std::array<double, kMostRows> gaps_;
-  std::array<double, kMostRows> changes_;
+  std::array<double, kMostContactRows> gaps_;
+  std::array<double, kMostContactRows> changes_;
   std::size_t count_;
   HandFreedoms step_ = HandFreedoms::Zero();
 };
