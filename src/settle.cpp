@@ -378,7 +378,7 @@ SettleProblem Settling::problem() const {
 
   const HandFreedoms changed = step_between(last_, correction_);
   problem.viscous.from = changed;
-  if (!fresh_) {
+  if (!fresh_ && !memory_.push.isZero()) {  // in the air the rate alone bounds the release
     problem.viscous.stiffness = kViscosity_s / seconds_ * back;
     problem.viscous.stiffness.head<2>() *= kSlideTime_s / kViscosity_s;
     problem.viscous.stiffness[2] = 0.0;  // out of the object at once, and back

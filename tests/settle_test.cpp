@@ -1,0 +1,355 @@
+#include "nade/settle.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "nade/corrector.h"
+#include "nade/mesh.h"
+#include "support/allocation_counter.h"
+#include "support/meshes.h"
+#include "support/random.h"
+#include "support/sample_hand.h"
+
+namespace nade {
+namespace {
+
+using test::rad;
+
+constexpr std::int64_t kFrame_ns = 11'111'111;
+
+const PlaneSurface kPlane;
+const SphereSurface kBall(0.15);
+
+Object plane() { return Object(kPlane); }
+/// Its top at y = 0.
+Object ball() { return Object(kBall, {{{0.0, -0.15, 0.0}, Quat::Identity()}, 1.0}); }
+
+CorrectorOptions settling() {
+  CorrectorOptions options;
+  options.method = Method::nade;
+  return options;
+}
+
+HandPose generic_size_hand(Handedness side = Handedness::right,
+                           const HandAngles& angles = test::relaxed_angles()) {
+  HandPose hand = test::sample_hand(side, angles);
+  const double scale = kGenericHandLength / hand_length(hand);
+  for (Pose& joint : hand.joints) joint.position *= scale;
+  return hand;
+}
+
+/// The palm's skin `depth_m` below y = 0, tilted about the hand's lateral axis.
+HandPose pressed_hand(double depth_m, double tilt_rad = 0.0, const Vec3& along = Vec3::Zero(),
+                      const HandPose& hand = generic_size_hand()) {
+  const Quat tilt(Eigen::AngleAxisd(tilt_rad, Vec3::UnitX()));
+  const double skin_m = generic_skin_depths()[Part::palm];
+  return test::placed_hand(hand, tilt * Vec3(0.0, skin_m, 0.0) - Vec3(0.0, depth_m, 0.0) + along,
+                           tilt);
+}
+
+Vec3 position_of(const FleshPoint& point, const HandPose& hand, double scale) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 0; k < point.joints.size(); ++k) {
+    sum += point.weights[k] * hand.joints[point.joints[k]].apply(scale * point.local[k]);
+  }
+  return sum;
+}
+
+/// Signed distance of the deepest skin.
+double lowest_skin(const HandPose& hand, const Object& object) {
+  const HandFlesh& flesh = generic_flesh(hand.side);
+  const double scale = hand_length(hand) / flesh.hand_length_m;
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const FleshPoint& point : flesh.skin) {
+    SurfaceHint hint;
+    const auto nearest = object.closest_point(position_of(point, hand, scale),
+                                              std::numeric_limits<double>::infinity(), hint);
+    lowest = std::min(lowest, nearest->signed_distance);
+  }
+  return lowest;
+}
+
+bool same_bits(const HandPose& a, const HandPose& b) {
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    if (a.joints[i].position != b.joints[i].position) return false;
+    if (a.joints[i].rotation.coeffs() != b.joints[i].rotation.coeffs()) return false;
+  }
+  return true;
+}
+
+bool all_finite(const HandPose& hand) {
+  return std::all_of(hand.joints.begin(), hand.joints.end(), [](const Pose& joint) {
+    return joint.position.allFinite() && joint.rotation.coeffs().allFinite();
+  });
+}
+
+double excess(double value, double low, double high) {
+  return std::max({0.0, value - high, low - value});
+}
+
+/// How far beyond its range of motion the worst joint is that the tracked pose did not have so.
+double limit_violation(const HandPose& tracked, const HandPose& corrected) {
+  const HandAngles before = measure_angles(tracked);
+  const HandAngles after = measure_angles(corrected);
+  double worst = 0.0;
+  for (std::size_t d = 0; d < kDigitCount; ++d) {
+    for (std::size_t i = 0; i < kHingeCount; ++i) {
+      const HingeRange range = range_of_motion(digit_at(d), i);
+      const auto flexion = [&](const HandAngles& angles) {
+        return excess(angles[d][i].flexion, range.flexion_min, range.flexion_max);
+      };
+      worst = std::max(worst, flexion(after) - flexion(before));
+    }
+  }
+  return worst;
+}
+
+/// Flexion of PIP and DIP, the mean of the four fingers.
+double curl_of(const HandPose& hand) {
+  const HandAngles angles = measure_angles(hand);
+  double sum = 0.0;
+  for (std::size_t d = 1; d < kDigitCount; ++d) sum += angles[d][1].flexion + angles[d][2].flexion;
+  return sum / 4.0;
+}
+
+/// Down from above, `frames` frames, to the palm's depth.
+HandPose on_the_way_down(int frame, int frames, double depth_m, double tilt_rad = 0.0) {
+  const double share = std::min(1.0, static_cast<double>(frame) / frames);
+  return pressed_hand(-0.08 + share * (0.08 + depth_m), tilt_rad);
+}
+
+TEST(Settle, AnUntouchedHandComesBackBitEqual) {
+  HandCorrector corrector(settling());
+  for (int i = 0; i < 5; ++i) {
+    const HandPose hand = pressed_hand(-0.2, 0.1, {0.01 * i, 0.0, 0.0});
+    const CorrectedHand& result = corrector.update(hand, ball(), i * kFrame_ns);
+    EXPECT_EQ(result.status, HandStatus::free);
+    EXPECT_TRUE(same_bits(result.pose, hand));
+  }
+}
+
+TEST(Settle, NoSkinIsInTheObjectAndSomeTouchesIt) {
+  for (const Object& object : {plane(), ball()}) {
+    for (const double tilt : {-0.4, 0.0, 0.4}) {
+      HandCorrector corrector(settling());
+      for (int i = 0; i <= 120; ++i) {
+        const HandPose tracked = on_the_way_down(i, 90, 0.04, tilt);
+        const CorrectedHand& result = corrector.update(tracked, object, i * kFrame_ns);
+        const double lowest = lowest_skin(result.pose, object);
+        ASSERT_GT(lowest, -0.0005) << "frame " << i << ", tilt " << tilt;
+        if (lowest_skin(tracked, object) < -0.002) {
+          EXPECT_LT(lowest, 0.002) << "frame " << i << ", tilt " << tilt;
+          EXPECT_EQ(result.status, HandStatus::corrected);
+        }
+      }
+    }
+  }
+}
+
+TEST(Settle, TheCorrectionStartsFromNothingAtFirstTouch) {
+  HandCorrector corrector(settling());
+  double depth_m = -0.08;
+  HandPose tracked = pressed_hand(depth_m);
+  std::int64_t time_ns = 0;
+  while (corrector.update(tracked, plane(), time_ns).status == HandStatus::free) {
+    time_ns += kFrame_ns;
+    depth_m += 5e-5;
+    tracked = pressed_hand(depth_m);
+    ASSERT_LT(depth_m, 0.0);
+  }
+  EXPECT_LT(largest_motion(tracked, corrector.update(tracked, plane(), time_ns).pose), 0.001);
+}
+
+TEST(Settle, FingersThatArePushedUpKeepTheirCurl) {
+  HandCorrector corrector(settling());
+  HandAngles angles = test::relaxed_angles();
+  std::int64_t time_ns = 0;
+  for (int i = 0; i <= 90; ++i, time_ns += kFrame_ns) {
+    corrector.update(on_the_way_down(i, 90, 0.02), plane(), time_ns);
+  }
+  const double relaxed = curl_of(generic_size_hand());
+  HandPose drawn;
+  for (int i = 0; i <= 60; ++i, time_ns += kFrame_ns) {
+    for (std::size_t d = 1; d < kDigitCount; ++d) {
+      angles[d][1].flexion = rad(16.0 + 0.5 * i);
+      angles[d][2].flexion = rad(4.0 + 0.3 * i);
+    }
+    const HandPose hand = generic_size_hand(Handedness::right, angles);
+    drawn = corrector.update(pressed_hand(0.02, 0.0, Vec3::Zero(), hand), plane(), time_ns).pose;
+    ASSERT_GT(lowest_skin(drawn, plane()), -0.0005) << i;
+  }
+  EXPECT_GT(curl_of(drawn) - relaxed, 0.8 * rad(48.0));
+}
+
+TEST(Settle, ADeepHandThatIsFoundComesOut) {
+  for (const Object& object : {plane(), ball()}) {
+    HandCorrector corrector(settling());
+    const HandPose tracked = pressed_hand(0.06, 0.2);
+    EXPECT_GT(lowest_skin(corrector.update(tracked, object, 0).pose, object), -0.002);
+  }
+}
+
+TEST(Settle, AHandOnItsWayOutIsFreeInTheEnd) {
+  HandCorrector corrector(settling());
+  std::int64_t time_ns = 0;
+  HandPose before;
+  for (int i = 0; i <= 300; ++i, time_ns += kFrame_ns) {
+    const HandPose tracked = on_the_way_down(i < 150 ? i : 300 - i, 90, 0.03);
+    const CorrectedHand& result = corrector.update(tracked, ball(), time_ns);
+    if (i > 0) {
+      EXPECT_LT(largest_motion(before, result.pose), 0.009) << "frame " << i;
+    }
+    before = result.pose;
+  }
+  const HandPose away = pressed_hand(-0.08);
+  EXPECT_EQ(corrector.update(away, ball(), time_ns).status, HandStatus::free);
+  EXPECT_TRUE(same_bits(corrector.update(away, ball(), time_ns).pose, away));
+}
+
+TEST(Settle, TheLeftHandIsTheRightOneInTheMirror) {
+  HandCorrector left(settling());
+  HandCorrector right(settling());
+  for (int i = 0; i <= 120; ++i) {
+    const HandPose tracked = on_the_way_down(i, 90, 0.03, 0.2);
+    const HandPose a = right.update(tracked, ball(), i * kFrame_ns).pose;
+    const HandPose b = left.update(mirrored(tracked), ball(), i * kFrame_ns).pose;
+    ASSERT_LT(largest_motion(a, mirrored(b)), 1e-6) << "frame " << i;
+  }
+}
+
+TEST(Settle, HandAndObjectMovedTogetherGiveTheSame) {
+  test::Random random;
+  SCOPED_TRACE(testing::Message() << "NADE_TEST_SEED=" << test::seed());
+  for (int trial = 0; trial < 4; ++trial) {
+    const Pose motion{random.point({-2.0, -2.0, -2.0}, {2.0, 2.0, 2.0}), random.rotation()};
+    const Object moved_ball(kBall, {motion * ball().placement().pose, 1.0});
+    HandCorrector here(settling());
+    HandCorrector there(settling());
+    for (int i = 0; i <= 120; ++i) {
+      const HandPose tracked = on_the_way_down(i, 90, 0.03, 0.2);
+      const HandPose a = here.update(tracked, ball(), i * kFrame_ns).pose;
+      const HandPose b = there.update(moved(tracked, motion), moved_ball, i * kFrame_ns).pose;
+      ASSERT_LT(largest_motion(moved(a, motion), b), 1e-5) << "frame " << i;
+    }
+  }
+}
+
+TEST(Settle, AnObjectThatRisesCarriesTheHand) {
+  HandCorrector corrector(settling());
+  const HandPose tracked = pressed_hand(-0.06);
+  HandPose before = tracked;
+  for (int i = 0; i <= 120; ++i) {
+    const double height_m = 0.001 * i;
+    const Object object(kBall, {{{0.0, -0.15 + height_m, 0.0}, Quat::Identity()}, 1.0});
+    const HandPose drawn = corrector.update(tracked, object, i * kFrame_ns).pose;
+    ASSERT_GT(lowest_skin(drawn, object), -0.001) << "frame " << i;
+    ASSERT_LT(largest_motion(before, drawn), 0.006) << "frame " << i;
+    before = drawn;
+  }
+}
+
+TEST(Settle, AMeshThatSwellsPushesTheHandOut) {
+  const TriangleSoup soup = test::icosphere(0.15F, 4);
+  const auto surface = MeshSurface::build(soup, "ball").value();
+  HandCorrector corrector(settling());
+  const HandPose tracked = pressed_hand(-0.01, 0.0, {0.0, 0.15, 0.0});
+  std::vector<Eigen::Vector3f> vertices = soup.vertices;
+  for (int i = 0; i <= 60; ++i) {
+    const float growth = 1.0F + 0.002F * static_cast<float>(i);
+    for (std::size_t k = 0; k < vertices.size(); ++k) vertices[k] = growth * soup.vertices[k];
+    surface->refit(vertices);
+    const Object object(*surface);
+    const HandPose drawn = corrector.update(tracked, object, i * kFrame_ns).pose;
+    ASSERT_GT(lowest_skin(drawn, object), -0.001) << "frame " << i;
+  }
+}
+
+TEST(Settle, VisibleFrictionLagsByABoundedAmountAndNeverJumps) {
+  CorrectorOptions options = settling();
+  options.settle.friction.coefficient = 0.5;
+  HandCorrector rubbing(options);
+  HandCorrector smooth(settling());
+  constexpr double kDepth_m = 0.02;
+  double longest_m = 0.0;
+  HandPose before;
+  for (int i = 0; i <= 400; ++i) {
+    const double along_m = 0.001 * std::max(0, i - 120);
+    HandPose tracked = i < 120 ? on_the_way_down(i, 90, kDepth_m)
+                               : pressed_hand(kDepth_m, 0.0, {0.0, 0.0, -along_m});
+    const HandPose drawn = rubbing.update(tracked, plane(), i * kFrame_ns).pose;
+    const HandPose free = smooth.update(tracked, plane(), i * kFrame_ns).pose;
+    longest_m =
+        std::max(longest_m, (drawn[Joint::palm].position - free[Joint::palm].position).norm());
+    if (i > 120) {
+      EXPECT_LT(largest_motion(before, drawn), 0.004) << "frame " << i;
+    }
+    before = drawn;
+  }
+  EXPECT_GT(longest_m, 0.004);
+  EXPECT_LT(longest_m, 0.5 * (kDepth_m + 0.03));
+}
+
+TEST(Settle, SkinSinksIntoASoftObjectAsFarAsItIsSoft) {
+  CorrectorOptions options = settling();
+  options.settle.softness_m = 0.006;
+  HandCorrector corrector(options);
+  double lowest = 0.0;
+  for (int i = 0; i <= 120; ++i) {
+    const HandPose tracked = on_the_way_down(i, 90, 0.04);
+    lowest = lowest_skin(corrector.update(tracked, plane(), i * kFrame_ns).pose, plane());
+    ASSERT_GT(lowest, -0.0065) << "frame " << i;
+  }
+  EXPECT_LT(lowest, -0.003);
+}
+
+TEST(Settle, AFrameAllocatesNothingAndRepeatsToTheBit) {
+  HandCorrector first(settling());
+  HandCorrector second(settling());
+  for (int i = 0; i <= 100; ++i) {
+    const HandPose tracked = on_the_way_down(i, 90, 0.03, 0.3);
+    HandPose a;
+    const auto count =
+        test::allocations_of([&] { a = first.update(tracked, ball(), i * kFrame_ns).pose; });
+    EXPECT_EQ(count, 0U) << "frame " << i;
+    EXPECT_TRUE(same_bits(a, second.update(tracked, ball(), i * kFrame_ns).pose)) << i;
+  }
+}
+
+/// Hands that wander through balls of all sizes: whatever happens, a frame gives a hand.
+TEST(Settle, RandomMotionsKeepLimitsAndStayFinite) {
+  test::Random random;
+  SCOPED_TRACE(testing::Message() << "NADE_TEST_SEED=" << test::seed());
+  for (int trial = 0; trial < 50; ++trial) {
+    const SphereSurface surface(random.uniform(0.03, 0.4));
+    const Object object(surface, {{{0.0, -surface.radius(), 0.0}, random.rotation()}, 1.0});
+    const Handedness side = trial % 2 == 0 ? Handedness::right : Handedness::left;
+    HandAngles angles = test::relaxed_angles();
+    for (std::size_t d = 0; d < kDigitCount; ++d) {
+      for (std::size_t i = 0; i < kHingeCount; ++i) {
+        const HingeRange range = range_of_motion(digit_at(d), i);
+        angles[d][i].flexion = random.uniform(range.flexion_min, range.flexion_max);
+      }
+    }
+    HandPose hand = generic_size_hand(side, angles);
+    const double size = random.uniform(0.7, 1.3);
+    for (Pose& joint : hand.joints) joint.position *= size;
+    const Quat turn = random.rotation();
+    const double reach_m = random.uniform(0.02, 0.15);
+    const double speed = random.uniform(0.02, 0.2);
+    HandCorrector corrector(settling());
+    for (int i = 0; i < 200; ++i) {
+      const Vec3 palm(reach_m * std::sin(speed * i), reach_m * std::cos(1.3 * speed * i),
+                      reach_m * std::sin(0.7 * speed * i));
+      const HandPose tracked = test::placed_hand(hand, palm, turn);
+      const HandPose drawn = corrector.update(tracked, object, i * kFrame_ns).pose;
+      ASSERT_TRUE(all_finite(drawn)) << "trial " << trial << ", frame " << i;
+      ASSERT_LT(limit_violation(tracked, drawn), 1e-6) << "trial " << trial << ", frame " << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace nade
