@@ -69,6 +69,7 @@ Status Session::show_object(const std::string& spec, const std::optional<Placeme
 Status Session::open_clip(const std::string& path) {
   Result<Clip> opened = Clip::open(path);
   if (!opened) return opened.error();
+  if (clip_begun_) clip_before_ = std::move(clip_);
   clip_.emplace(std::move(opened).value());
   clip_begun_ = false;
   hands_ = {};
@@ -89,6 +90,7 @@ Status Session::open_any(const std::string& path) {
 
 void Session::close_clip() {
   clip_.reset();
+  clip_before_.reset();
   clip_begun_ = false;
   press_m_.reset();
   hands_ = {};
@@ -146,9 +148,16 @@ void Session::begin_clip() {
   for (const std::string& warning : clip_->warnings()) notices_.push_back(warning);
   if (clip_->size() == 0) {
     notices_.push_back(fmt::format("{}: expected frames with hands, found none", clip_->path()));
-    close_clip();
+    clip_ = std::exchange(clip_before_, std::nullopt);
+    clip_begun_ = clip_.has_value();
+    if (clip_begun_) {
+      restart();
+    } else {
+      close_clip();
+    }
     return;
   }
+  clip_before_.reset();
   clip_begun_ = true;
   for (std::size_t side = 0; side < 2; ++side) scales_[side].reset();
   const Status stands = stand_as_recorded();

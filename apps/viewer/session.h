@@ -118,6 +118,7 @@ class Session {
   std::optional<double> press_m_;
   std::optional<Clip> clip_;
   bool clip_begun_ = false;
+  std::optional<Clip> clip_before_;  ///< until the new one is known to have frames
   Playback playback_;
   MouseHand mouse_hand_;
   std::int64_t mouse_time_ns_ = 0;
