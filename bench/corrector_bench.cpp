@@ -24,7 +24,6 @@ using namespace nade;
 constexpr std::array kDepths_m{0.02, 0.03};
 constexpr double kDuration_s = 30.0;
 
-/// One more method is one more of these.
 struct Row {
   const char* name;
   CorrectorOptions options;
@@ -32,7 +31,16 @@ struct Row {
   double palm_tolerance_m;
 };
 
-std::vector<Row> rows() { return {{"paper", {}, 1e-4}}; }
+CorrectorOptions by(Method method) {
+  CorrectorOptions options;
+  options.method = method;
+  return options;
+}
+
+/// The paper puts the palm's centre on the surface; a whole hand rests on what sticks out of it.
+std::vector<Row> rows() {
+  return {{"paper", by(Method::paper), 1e-4}, {"nade", by(Method::nade), 5e-3}};
+}
 
 struct TimedHand {
   HandPose pose;

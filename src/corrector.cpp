@@ -64,6 +64,7 @@ bool touches(const Contacts& contacts) {
 
 CorrectorOptions paper_literal() {
   CorrectorOptions options;
+  options.method = Method::paper;
   options.contact.test_point = TestPoint::joint;
   options.contact.counted_hits = CountedHits::any;
   options.contact.entry_side = EntrySide::forgotten;

@@ -493,6 +493,7 @@ SettledHand Settling::finish() {
     contact.ray_direction = contact.skin_direction = contact.normal = part.normal;
     contact.surface_point = part.surface_point;
     contact.target = settled.hand[joint_of(part_at(i))].position;
+    contact.skin_depth_m = part.normal.dot(contact.target - part.surface_point);
     contact.depth_m = part.depth_m;
     settled.contacts[i] = contact;
   }

@@ -24,6 +24,12 @@ constexpr std::int64_t kFrame_ns = 11'111'111;
 const PlaneSurface kPlane;
 const SphereSurface kSphere(0.15);
 
+CorrectorOptions by_paper() {
+  CorrectorOptions options;
+  options.method = Method::paper;
+  return options;
+}
+
 Object plane() { return Object(kPlane); }
 /// Its top at y = 0.
 Object sphere() { return Object(kSphere, {{{0.0, -0.15, 0.0}, Quat::Identity()}, 1.0}); }
@@ -77,7 +83,7 @@ double signed_distance(const Object& object, const Vec3& point) {
 }
 
 TEST(Corrector, AnUntouchedHandComesBackBitEqual) {
-  HandCorrector corrector;
+  HandCorrector corrector(by_paper());
   for (int i = 0; i < 10; ++i) {
     const HandPose hand = pressed_hand(-0.3, 0.1, {0.01 * i, 0.0, 0.0});
     const CorrectedHand& result = corrector.update(hand, sphere(), i * kFrame_ns);
@@ -87,7 +93,7 @@ TEST(Corrector, AnUntouchedHandComesBackBitEqual) {
 }
 
 TEST(Corrector, MethodNonePassesTheHandThrough) {
-  CorrectorOptions options;
+  CorrectorOptions options = by_paper();
   options.method = Method::none;
   HandCorrector corrector(options);
   const HandPose hand = pressed_hand(0.03);
@@ -98,7 +104,7 @@ TEST(Corrector, PressedSkinLiesOnTheSurface) {
   for (const Object& object : {plane(), sphere()}) {
     for (double tilt : {0.0, rad(10.0), rad(-10.0)}) {
       for (double depth_m = 0.016; depth_m < 0.040; depth_m += 0.004) {
-        HandCorrector corrector;
+        HandCorrector corrector(by_paper());
         const CorrectedHand& result = corrector.update(pressed_hand(depth_m, tilt), object, 0);
         ASSERT_TRUE(result.contacts[0].has_value());
         const Vec3 skin = result.pose[Joint::palm].position - palm_skin() * result.pose.back();
@@ -119,7 +125,7 @@ TEST(Corrector, PressedSkinLiesOnTheSurface) {
 }
 
 TEST(Corrector, ThumbSkinLiesOnThePlaneWhereItCanReach) {
-  HandCorrector corrector;
+  HandCorrector corrector(by_paper());
   const CorrectedHand& result = corrector.update(pressed_hand(0.02), plane(), 0);
   const auto& contact = result.contacts[index_of(Part::thumb)];
   ASSERT_TRUE(contact.has_value());
@@ -129,7 +135,7 @@ TEST(Corrector, ThumbSkinLiesOnThePlaneWhereItCanReach) {
 TEST(Corrector, TheCorrectionStartsFromNothingAtFirstTouch) {
   for (const Object& object : {plane(), sphere()}) {
     for (double tilt : {0.0, rad(15.0), rad(-15.0)}) {
-      HandCorrector corrector;
+      HandCorrector corrector(by_paper());
       bool touched = false;
       for (int i = 0; i < 4000 && !touched; ++i) {
         const HandPose hand = pressed_hand(-0.1 + i * 5e-5, tilt);
@@ -145,7 +151,7 @@ TEST(Corrector, TheCorrectionStartsFromNothingAtFirstTouch) {
 }
 
 TEST(Corrector, TheCorrectionIsContinuousInDepth) {
-  CorrectorOptions options;
+  CorrectorOptions options = by_paper();
   options.release_s = 0.0;
   constexpr double kStep_m = 2e-5;
   for (double tilt : {0.0, rad(15.0)}) {
@@ -182,8 +188,8 @@ TEST(Corrector, MovedTogetherHandAndObjectGiveTheSameAnswer) {
                       Quat(Eigen::AngleAxisd(
                           normal(random), Vec3(normal(random), normal(random), 1.0).normalized()))};
     const Object object(kSphere, {motion * sphere().placement().pose, 1.0});
-    HandCorrector here;
-    HandCorrector there;
+    HandCorrector here(by_paper());
+    HandCorrector there(by_paper());
     for (int frame = 0; frame < 5; ++frame) {
       const HandPose hand = pressed_hand(0.004 * frame, rad(12.0), {0.005 * frame, 0.0, 0.0});
       const HandPose expected = moved(here.update(hand, sphere(), frame * kFrame_ns).pose, motion);
@@ -195,8 +201,8 @@ TEST(Corrector, MovedTogetherHandAndObjectGiveTheSameAnswer) {
 
 TEST(Corrector, LeftAndRightAreMirrored) {
   for (double depth_m : {0.005, 0.02, 0.035}) {
-    HandCorrector left;
-    HandCorrector right;
+    HandCorrector left(by_paper());
+    HandCorrector right(by_paper());
     const HandPose hand = pressed_hand(depth_m, rad(8.0), {0.02, 0.0, 0.0});
     const HandPose expected = mirrored(right.update(hand, sphere(), 0).pose);
     EXPECT_LT(largest_difference(left.update(mirrored(hand), sphere(), 0).pose, expected), 1e-6);
@@ -208,7 +214,7 @@ TEST(Corrector, ALargerHandHasThickerSkin) {
     HandPose hand = generic_size_hand();
     for (Pose& joint : hand.joints) joint.position *= scale;
     hand = test::placed_hand(hand, {0.0, scale * palm_skin() - 0.02, 0.0});
-    HandCorrector corrector;
+    HandCorrector corrector(by_paper());
     const CorrectedHand& result = corrector.update(hand, plane(), 0);
     EXPECT_NEAR(result.pose[Joint::palm].position.y(), scale * palm_skin(), 1e-6);
   }
@@ -222,7 +228,7 @@ TEST(Corrector, BelievableRadiiAreUsedAndOthersAreNot) {
   hand.radius[index_of(Joint::wrist)] = 0.02;
   hand.radius[index_of(Joint::index_tip)] = 0.0055;
   ASSERT_TRUE(believable_radii(hand).has_value());
-  HandCorrector corrector;
+  HandCorrector corrector(by_paper());
   const CorrectedHand& result = corrector.update(hand, plane(), 0);
   EXPECT_NEAR(result.pose[Joint::index_tip].position.y(), 0.0055, 1e-5);
   EXPECT_NEAR(result.pose[Joint::palm].position.y(), palm_skin(), 1e-6);
@@ -230,7 +236,7 @@ TEST(Corrector, BelievableRadiiAreUsedAndOthersAreNot) {
 
 TEST(Corrector, WhatIsLeftAtAnEdgeIsReleasedAndNotDropped) {
   // The object vanishes under the pressed hand: the plainest edge there is.
-  HandCorrector corrector;
+  HandCorrector corrector(by_paper());
   const Object gone(kPlane, {{{0.0, -5.0, 0.0}, Quat::Identity()}, 1.0});
   const HandPose hand = pressed_hand(0.03);
   HandPose before = corrector.update(hand, plane(), 0).pose;
@@ -251,7 +257,7 @@ TEST(Corrector, WhatIsLeftAtAnEdgeIsReleasedAndNotDropped) {
 }
 
 TEST(Corrector, APoseThatCannotBeUsedComesBackAsItIs) {
-  HandCorrector corrector;
+  HandCorrector corrector(by_paper());
   (void)corrector.update(pressed_hand(0.02), plane(), 0);
   HandPose broken = pressed_hand(0.02);
   broken[Joint::ring_distal].position.x() = std::numeric_limits<double>::quiet_NaN();
@@ -261,7 +267,7 @@ TEST(Corrector, APoseThatCannotBeUsedComesBackAsItIs) {
 }
 
 TEST(Corrector, TimeThatGoesBackStartsAnew) {
-  HandCorrector corrector;
+  HandCorrector corrector(by_paper());
   (void)corrector.update(pressed_hand(0.03), plane(), 1'000'000'000);
   const HandPose hand = pressed_hand(-0.2);
   const CorrectedHand& result = corrector.update(hand, plane(), 0);
@@ -282,7 +288,7 @@ TEST(Corrector, DegenerateHandsGiveFinitePoses) {
   }
   HandPose away = test::placed_hand(generic_size_hand(), {0.0, -3.0, 0.0});
   for (const HandPose& hand : {point, folded, stump, away}) {
-    HandCorrector corrector;
+    HandCorrector corrector(by_paper());
     EXPECT_TRUE(all_finite(corrector.update(hand, plane(), 0).pose));
     EXPECT_TRUE(all_finite(corrector.update(hand, sphere(), kFrame_ns).pose));
   }
@@ -292,8 +298,8 @@ TEST(Corrector, AMeshSphereGivesTheExactSpheresCorrections) {
   const auto mesh = MeshSurface::build(test::uv_sphere(0.15F, 200, 201), "sphere");
   ASSERT_TRUE(mesh.ok());
   const Object object(**mesh, sphere().placement());
-  HandCorrector exact;
-  HandCorrector meshed;
+  HandCorrector exact(by_paper());
+  HandCorrector meshed(by_paper());
   for (int i = 0; i < 60; ++i) {
     const HandPose hand = pressed_hand(0.03 * i / 60.0, rad(8.0), {0.0005 * i, 0.0, 0.0});
     const HandPose expected = exact.update(hand, sphere(), i * kFrame_ns).pose;
@@ -333,7 +339,7 @@ TEST(Corrector, AFrameOnTheDogAllocatesNothing) {
   const auto stroke = stroke_the_dog();
   if (!stroke) GTEST_SKIP() << NADE_TEST_DOG << ": not here";
   const Object object(*stroke->dog);
-  HandCorrector corrector;
+  HandCorrector corrector(by_paper());
   std::size_t corrected = 0;
   const auto count = test::allocations_of([&] {
     for (std::size_t i = 0; i < stroke->hands.size(); ++i) {
@@ -352,8 +358,8 @@ TEST(Corrector, EveryRunOnTheDogGivesTheSameBits) {
   if (!first || !second) GTEST_SKIP() << NADE_TEST_DOG << ": not here";
   const Object object(*first->dog);
   const Object built_again(*second->dog);
-  HandCorrector here;
-  HandCorrector there;
+  HandCorrector here(by_paper());
+  HandCorrector there(by_paper());
   for (std::size_t i = 0; i < first->hands.size(); ++i) {
     const auto time_ns = static_cast<std::int64_t>(i) * kFrame_ns;
     const CorrectedHand& a = here.update(first->hands[i], object, time_ns);
@@ -367,7 +373,7 @@ TEST(Corrector, AFrameAllocatesNothing) {
   const auto mesh = MeshSurface::build(test::uv_sphere(0.15F, 60, 61), "sphere");
   ASSERT_TRUE(mesh.ok());
   const Object object(**mesh, sphere().placement());
-  HandCorrector corrector;
+  HandCorrector corrector(by_paper());
   const HandPose hand = pressed_hand(0.02, rad(8.0));
   const auto count = test::allocations_of([&] {
     for (int i = 0; i < 20; ++i) (void)corrector.update(hand, object, i * kFrame_ns);
@@ -377,7 +383,7 @@ TEST(Corrector, AFrameAllocatesNothing) {
 
 TEST(Corrector, EveryRunGivesTheSameBits) {
   const auto run = [] {
-    HandCorrector corrector;
+    HandCorrector corrector(by_paper());
     HandPose last;
     for (int i = 0; i < 60; ++i) {
       const HandPose hand = pressed_hand(0.001 * i - 0.01, rad(10.0), {0.001 * i, 0.0, 0.0});
@@ -390,7 +396,7 @@ TEST(Corrector, EveryRunGivesTheSameBits) {
 
 TEST(Corrector, NoJointLeavesItsRangeOfMotion) {
   for (double tilt : {rad(-20.0), 0.0, rad(20.0)}) {
-    HandCorrector corrector;
+    HandCorrector corrector(by_paper());
     for (int i = 0; i < 100; ++i) {
       const HandPose hand = pressed_hand(0.0008 * i - 0.02, tilt);
       const HandAngles tracked = measure_angles(hand);

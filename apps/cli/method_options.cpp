@@ -10,7 +10,7 @@
 namespace nade::cli {
 namespace {
 
-constexpr const char* kGroup = "Open points of the paper (docs/method.md)";
+constexpr const char* kGroup = "Open points of --method paper (docs/method.md)";
 
 template <class T>
 struct Choice {
@@ -113,7 +113,7 @@ void add_open_points(CLI::App& command, CorrectorOptions& options) {
 
 void add_method_options(CLI::App& command, MethodOptions& options) {
   add_choice<Method>(command, "--method", options.corrector.method, methods(),
-                     "how to correct (default paper)");
+                     "how to correct (default nade)");
   CLI::Option* const literal = command.add_flag("--paper-literal", options.literal,
                                                 "every open point as the paper's text has it");
   literal->group(kGroup);

@@ -25,7 +25,7 @@ enum class SkinSource : std::uint8_t {
 };
 
 struct CorrectorOptions {
-  Method method = Method::paper;
+  Method method = Method::nade;
   ContactOptions contact;
   FingerOptions fingers;
   SkinSource skin_source = SkinSource::radii;
