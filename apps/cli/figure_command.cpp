@@ -4,7 +4,6 @@
 #include <functional>
 #include <limits>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -80,13 +79,13 @@ struct BundledStroke {
   const char* title;
   const char* object;
   const char* place;
-  double tilt_deg;
   /// Of the time that the palm is at its depth.
   double moment;
+  double air;
 };
-constexpr std::array<BundledStroke, 3> kBundled{{{"Plane", "plane", "", 0.0, 0.30},
-                                                 {"Sphere", "sphere", "", 0.0, 0.25},
-                                                 {"Dog", "dog", "head", 0.0, 0.10}}};
+constexpr std::array<BundledStroke, 3> kBundled{{{"Plane", "plane", "", 0.30, 0.87},
+                                                 {"Sphere", "sphere", "", 0.25, 0.87},
+                                                 {"Dog", "dog", "head", 0.46, 1.0}}};
 constexpr double kBundledDepth = 0.02;
 
 Result<FigureRow> bundled_row(const BundledStroke& stroke, const draw::HandMeshes& meshes,
@@ -96,7 +95,6 @@ Result<FigureRow> bundled_row(const BundledStroke& stroke, const draw::HandMeshe
   SynthOptions options;
   options.place = stroke.place;
   options.depth_m = kBundledDepth;
-  options.tilt_rad = stroke.tilt_deg * std::numbers::pi / 180.0;
   options.duration_s = 4.0;
   const Result<HandPose> relaxed = load_relaxed_hand(options.side);
   if (!relaxed) return relaxed.error();
@@ -105,7 +103,7 @@ Result<FigureRow> bundled_row(const BundledStroke& stroke, const draw::HandMeshe
   const double at_s =
       synth->stroke_begin_s() + stroke.moment * (synth->stroke_end_s() - synth->stroke_begin_s());
   const double scale = hand_scale(meshes[index_of(options.side)], *relaxed);
-  FigureRow row{stroke.title, {std::move(object).value(), {}}, {}};
+  FigureRow row{stroke.title, stroke.air, {std::move(object).value(), {}}, {}};
   const Frames next = [&synth]() -> Result<std::optional<RecordedFrame>> { return synth->next(); };
   const Status played =
       play(next, static_cast<std::int64_t>(1e9 * at_s), {scale, scale}, methods, row);
@@ -146,7 +144,7 @@ Result<FigureContent> own_content(const FigureArguments& arguments, Show show,
                                 1e-9 * static_cast<double>(*time - show.survey.first_ns));
   const std::string& spec = show.placed.loaded.spec;
   const std::string title = spec.substr(spec.find_last_of('/') + 1);
-  content.rows.push_back({title, std::move(show.placed), {}});
+  content.rows.push_back({title, 0.92, std::move(show.placed), {}});
   const Status played = play([&reader] { return reader->next(); }, *time, show.survey.scale,
                              methods, content.rows.front());
   if (!played) return played.error();

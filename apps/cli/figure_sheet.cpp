@@ -96,7 +96,7 @@ draw::Camera hand_camera(const FigureRow& row) {
   out.y() = 0.0;
   out = out.norm() > 1e-6 ? Vec3(out.normalized()) : Vec3::UnitZ();
   out = std::cos(kAbove) * out + std::sin(kAbove) * Vec3::UnitY();
-  const double distance = 0.87 * ball.radius_m / std::sin(0.5 * kView);
+  const double distance = row.air * ball.radius_m / std::sin(0.5 * kView);
   return draw::looking_at(ball.center + distance * out, ball.center, kView, kPanelAspect);
 }
 

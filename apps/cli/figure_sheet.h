@@ -13,6 +13,7 @@ namespace nade::cli {
 /// One hand-frame of a row of the figure: an object, and what each method makes of the hands.
 struct FigureRow {
   std::string title;  ///< "Plane"
+  double air = 0.87;  ///< of the picture about the hand; 1 has more of the object in it
   PlacedObject placed;
   /// The same moment by each method, in the order of the columns.
   std::vector<std::array<std::optional<draw::StagedHand>, 2>> by_method;

@@ -19,7 +19,9 @@ constexpr double kGhostFull = 0.006;
 constexpr float kGhostOpacity = 0.62F;
 /// Of that, where it has sunk into the object: which is what it is shown for.
 constexpr float kGhostBehind = 0.75F;
-constexpr float kGlassOpacity = 0.62F;
+/// A flat bottom, or a sheet, does not flicker with the floor.
+constexpr double kFloorBelow = 0.0005;
+constexpr float kGlassOpacity = 0.48F;
 
 double farthest_joint(const HandPose& a, const HandPose& b) {
   double farthest = 0.0;
@@ -160,7 +162,7 @@ struct Stage::Impl {
     for (const Vec3f& corner : corners) {
       lowest = std::min(lowest, placement.to_world(corner.cast<double>()).y());
     }
-    scene.floor_y = lowest;
+    scene.floor_y = lowest - kFloorBelow;
   }
 };
 
