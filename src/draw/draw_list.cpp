@@ -29,26 +29,21 @@ void DrawList::gather(const Scene& scene, const MeshStore& meshes, const Camera&
     std::vector<DrawItem>& list = instance.look == Look::solid ? solids_ : ghosts_;
     list.push_back({&mesh, &instance, matrix_of(instance.placement)});
   }
+  solid_corners_.clear();
+  for (const DrawItem& item : solids_) {
+    for (int i = 0; i < 8; ++i) {
+      const Eigen::Vector3f corner =
+          item.mesh->box.corner(static_cast<Eigen::AlignedBox3f::CornerType>(i));
+      const Vec3 world = item.instance->placement.to_world(corner.cast<double>());
+      if (world.allFinite()) solid_corners_.push_back(world);
+    }
+  }
   const Vec3 eye = camera.pose.position;
   std::sort(ghosts_.begin(), ghosts_.end(), [&eye](const DrawItem& a, const DrawItem& b) {
     const double to_a = (center_of(a) - eye).squaredNorm();
     const double to_b = (center_of(b) - eye).squaredNorm();
     return to_a != to_b ? to_a > to_b : a.instance < b.instance;
   });
-}
-
-std::optional<Ball> DrawList::solid_bounds() const {
-  Eigen::AlignedBox3d box;
-  for (const DrawItem& item : solids_) {
-    for (int i = 0; i < 8; ++i) {
-      const Eigen::Vector3f corner =
-          item.mesh->box.corner(static_cast<Eigen::AlignedBox3f::CornerType>(i));
-      const Vec3 world = item.instance->placement.to_world(corner.cast<double>());
-      if (world.allFinite()) box.extend(world);
-    }
-  }
-  if (box.isEmpty()) return std::nullopt;
-  return Ball{box.center(), 0.5 * box.diagonal().norm()};
 }
 
 void draw_triangles(const DrawItem& item) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "frame_uniforms.h"
@@ -22,12 +21,13 @@ class DrawList {
   [[nodiscard]] const std::vector<DrawItem>& solids() const { return solids_; }
   /// Farthest from the eye first.
   [[nodiscard]] const std::vector<DrawItem>& ghosts() const { return ghosts_; }
-  /// About all solids; no value where there are none.
-  [[nodiscard]] std::optional<Ball> solid_bounds() const;
+  /// Of the boxes about the solids, in the world.
+  [[nodiscard]] const std::vector<Vec3>& solid_corners() const { return solid_corners_; }
 
  private:
   std::vector<DrawItem> solids_;
   std::vector<DrawItem> ghosts_;
+  std::vector<Vec3> solid_corners_;
 };
 
 /// Draws an item's triangles with the program that is in use; its model matrix is uniform 0.

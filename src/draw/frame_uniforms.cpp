@@ -1,13 +1,16 @@
 #include "frame_uniforms.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 namespace nade::draw {
 namespace {
 
-/// Half the angle under which the key light is seen: a softbox of 30 cm, 2 m away.
-constexpr double kKeyTangent = 0.075;
+/// Half the angle under which the key light is seen: a softbox of 36 cm, 2 m away.
+constexpr double kKeyTangent = 0.09;
+/// As in shaders/shadow.glsl.
+constexpr double kWidestShadowBlur = 0.06;
 constexpr double kLeastShadowRadius = 0.02;
 constexpr double kFloorReach = 12.0;
 
@@ -51,38 +54,79 @@ Eigen::Matrix4d matrix_of(const Pose& pose) {
   return matrix;
 }
 
-struct ShadowBox {
-  Eigen::Matrix4f world_to_map;
-  Eigen::Vector4f extent;
-};
-
-/// The box, along the light, that holds `receivers` across and `casters` in depth.
-ShadowBox shadow_box(const Vec3& to_light, const Ball& receivers, const Ball& casters) {
+/// Right, up and away, as seen by the light; each a row.
+Eigen::Matrix3d light_axes(const Vec3& to_light) {
   const Vec3 right =
       to_light.cross(std::abs(to_light.y()) < 0.99 ? Vec3::UnitY() : Vec3::UnitZ()).normalized();
   Eigen::Matrix3d axes;
   axes.row(0) = right;
   axes.row(1) = right.cross(-to_light);
   axes.row(2) = -to_light;
-  const double width = 2.0 * receivers.radius_m;
-  const Vec3 center = axes * receivers.center;
-  const double middle = axes.row(2).dot(casters.center);
-  const double start = std::min(middle - casters.radius_m, center.z() - receivers.radius_m);
-  const double end = std::max(middle + casters.radius_m, center.z() + receivers.radius_m);
+  return axes;
+}
+
+struct ShadowMap {
+  Eigen::Matrix4f world_to_map;
+  Eigen::Vector4f extent;
+  Eigen::Vector4f casters;
+};
+
+/// A map about `center` (in the light's axes), deep enough for `casters` and what they shade.
+ShadowMap shadow_map(const Eigen::Matrix3d& axes, const Vec3& center, double radius_m,
+                     const Eigen::AlignedBox3d& casters) {
+  const double width = 2.0 * radius_m;
+  const double start = std::min(casters.min().z(), center.z() - radius_m) - 0.01;
+  const double end = std::max(casters.max().z(), center.z() + radius_m) + 0.01;
   // In steps of whole texels, so that shadows do not crawl when the focus moves.
   const double texel = width / kShadowMapSize;
   const auto snapped = [texel](double x) { return std::round(x / texel) * texel; };
+  const double low_x = snapped(center.x()) - radius_m;
+  const double low_y = snapped(center.y()) - radius_m;
   Eigen::Matrix4d map = Eigen::Matrix4d::Identity();
   map.topLeftCorner<3, 3>() = axes;
-  map(0, 3) = receivers.radius_m - snapped(center.x());
-  map(1, 3) = receivers.radius_m - snapped(center.y());
-  map(2, 3) = -start;
-  map.row(0) /= width;
-  map.row(1) /= width;
+  map.topRightCorner<3, 1>() = Vec3(-low_x, -low_y, -start);
+  map.topRows<2>() /= width;
   map.row(2) /= end - start;
-  return {map.cast<float>(),
-          {static_cast<float>(width), static_cast<float>(end - start), static_cast<float>(texel),
-           0.0F}};
+  const double reach = kWidestShadowBlur + 2.0 * texel;
+  return {map.cast<float>(), Eigen::Vector4d(width, end - start, texel, 0.0).cast<float>(),
+          Eigen::Vector4d((casters.min().x() - reach - low_x) / width,
+                          (casters.min().y() - reach - low_y) / width,
+                          (casters.max().x() + reach - low_x) / width,
+                          (casters.max().y() + reach - low_y) / width)
+              .cast<float>()};
+}
+
+/// The lights and the shadows they cast.
+void set_lights(const Scene& scene, std::span<const Vec3> solids, FrameUniforms& frame) {
+  const Vec3 to_key = turned(kKeyLight, scene.light_turn_rad);
+  const Eigen::Matrix3d axes = light_axes(to_key);
+  Eigen::AlignedBox3d box;
+  Eigen::AlignedBox3d casters;
+  for (const Vec3& corner : solids) {
+    box.extend(corner);
+    casters.extend(axes * corner);
+  }
+  if (casters.isEmpty()) {
+    box.extend(scene.focus);
+    casters.extend(axes * scene.focus);
+  }
+  const double focus_radius = std::max(scene.focus_radius_m, kLeastShadowRadius);
+  const double wide_radius =
+      std::max(0.52 * casters.sizes().head<2>().maxCoeff(), kLeastShadowRadius);
+  const ShadowMap near = shadow_map(axes, axes * scene.focus, focus_radius, casters);
+  const ShadowMap wide = shadow_map(axes, casters.center(), wide_radius, casters);
+  frame.near_shadow = near.world_to_map;
+  frame.near_extent = near.extent;
+  frame.near_casters = near.casters;
+  frame.wide_shadow = wide.world_to_map;
+  frame.wide_extent = wide.extent;
+  frame.wide_casters = wide.casters;
+  frame.solids_low = with(box.min(), 0.0);
+  frame.solids_high = with(box.max(), 0.0);
+  frame.focus = with(scene.focus, focus_radius);
+  frame.key_light = with(to_key, kKeyTangent);
+  frame.fill_light = with(turned(kFillLight, scene.light_turn_rad), 0.0);
+  frame.rim_light = with(turned(kRimLight, scene.light_turn_rad), 0.0);
 }
 
 }  // namespace
@@ -104,22 +148,9 @@ FrameUniforms eye_uniforms(const Camera& camera, int width, int height) {
 }
 
 FrameUniforms frame_uniforms(const Scene& scene, const Camera& camera, int width, int height,
-                             const std::optional<Ball>& solids) {
+                             std::span<const Vec3> solids) {
   FrameUniforms frame = eye_uniforms(camera, width, height);
-  const Vec3 to_key = turned(kKeyLight, scene.light_turn_rad);
-  const Ball casters = solids.value_or(Ball{scene.focus, kLeastShadowRadius});
-  const Ball focus{scene.focus, std::max(scene.focus_radius_m, kLeastShadowRadius)};
-  const Ball everything{casters.center, std::max(casters.radius_m, kLeastShadowRadius)};
-  const ShadowBox near = shadow_box(to_key, focus, everything);
-  const ShadowBox wide = shadow_box(to_key, everything, everything);
-  frame.near_shadow = near.world_to_map;
-  frame.near_extent = near.extent;
-  frame.wide_shadow = wide.world_to_map;
-  frame.wide_extent = wide.extent;
-  frame.key_light = with(to_key, kKeyTangent);
-  frame.fill_light = with(turned(kFillLight, scene.light_turn_rad), 0.0);
-  frame.rim_light = with(turned(kRimLight, scene.light_turn_rad), 0.0);
-  frame.focus = with(scene.focus, focus.radius_m);
+  set_lights(scene, solids, frame);
   frame.floor << static_cast<float>(scene.floor_y), scene.floor ? 1.0F : 0.0F,
       static_cast<float>(kFloorReach), 0.0F;
   return frame;

@@ -34,7 +34,6 @@ class GlName {
 namespace detail {
 inline void free_buffer(GLuint name) { glDeleteBuffers(1, &name); }
 inline void free_texture(GLuint name) { glDeleteTextures(1, &name); }
-inline void free_sampler(GLuint name) { glDeleteSamplers(1, &name); }
 inline void free_framebuffer(GLuint name) { glDeleteFramebuffers(1, &name); }
 inline void free_renderbuffer(GLuint name) { glDeleteRenderbuffers(1, &name); }
 inline void free_vertex_array(GLuint name) { glDeleteVertexArrays(1, &name); }
@@ -43,7 +42,6 @@ inline void free_program(GLuint name) { glDeleteProgram(name); }
 
 using GlBuffer = GlName<&detail::free_buffer>;
 using GlTexture = GlName<&detail::free_texture>;
-using GlSampler = GlName<&detail::free_sampler>;
 using GlFramebuffer = GlName<&detail::free_framebuffer>;
 using GlRenderbuffer = GlName<&detail::free_renderbuffer>;
 using GlVertexArray = GlName<&detail::free_vertex_array>;

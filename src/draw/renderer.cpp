@@ -44,7 +44,7 @@ void take_over_state() {
   glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
-  for (GLuint unit = kColorUnit; unit <= kWideShadowDepthUnit; ++unit) glBindSampler(unit, 0);
+  for (GLuint unit = kColorUnit; unit <= kWideShadowUnit; ++unit) glBindSampler(unit, 0);
 }
 
 /// So that nothing of ours is in the way of who draws next.
@@ -53,7 +53,7 @@ void leave_state() {
   glDisable(GL_BLEND);
   glUseProgram(0);
   glBindVertexArray(0);
-  for (GLuint unit = kColorUnit; unit <= kWideShadowDepthUnit; ++unit) {
+  for (GLuint unit = kColorUnit; unit <= kWideShadowUnit; ++unit) {
     glBindTextureUnit(unit, 0);
     glBindSampler(unit, 0);
   }
@@ -86,7 +86,7 @@ struct Renderer::Impl {
     }
     take_over_state();
     list.gather(scene, meshes, camera);
-    const FrameUniforms frame = frame_uniforms(scene, camera, width, height, list.solid_bounds());
+    const FrameUniforms frame = frame_uniforms(scene, camera, width, height, list.solid_corners());
     set_uniforms(frame);
     shadows.draw(list.solids());
     shadows.bind();

@@ -15,8 +15,6 @@ enum TextureUnit : GLuint {
   kVisibilityUnit,
   kNearShadowUnit,
   kWideShadowUnit,
-  kNearShadowDepthUnit,
-  kWideShadowDepthUnit,
 };
 
 /// What stands in the key light: one map about the focus, one about everything.
@@ -24,7 +22,6 @@ class ShadowPass {
  public:
   [[nodiscard]] static Result<ShadowPass> create();
   void draw(const std::vector<DrawItem>& solids);
-  /// For shaders that ask: each map twice, to compare with and to read.
   void bind() const;
 
  private:
@@ -35,8 +32,6 @@ class ShadowPass {
   GlTexture wide_;
   GlFramebuffer near_pass_;
   GlFramebuffer wide_pass_;
-  GlSampler compare_;
-  GlSampler read_;
 };
 
 }  // namespace nade::draw

@@ -34,11 +34,10 @@ Result<SurfacePass> SurfacePass::create() {
     return ok_status();
   };
   const std::array<Status, 4> built{
-      build(pass.backdrop_, {{"screen.vert.glsl"},
-                             {"frame.glsl", "srgb.glsl", "studio.glsl", "backdrop.frag.glsl"}}),
-      build(pass.floor_,
-            {{"frame.glsl", "floor.vert.glsl"},
-             {"frame.glsl", "srgb.glsl", "studio.glsl", "received.glsl", "floor.frag.glsl"}}),
+      build(pass.backdrop_,
+            {{"screen.vert.glsl"},
+             {"frame.glsl", "srgb.glsl", "studio.glsl", "received.glsl", "backdrop.frag.glsl"}}),
+      build(pass.floor_depth_, {{"frame.glsl", "floor.vert.glsl"}, {"depth_only.frag.glsl"}}),
       build(pass.surface_, {{"frame.glsl", "mesh.vert.glsl"},
                             {"frame.glsl", "srgb.glsl", "studio.glsl", "received.glsl",
                              "grain.glsl", "surface.frag.glsl"}}),
@@ -60,6 +59,13 @@ void SurfacePass::draw_solids(const std::vector<DrawItem>& solids, const Scene& 
 
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
+  if (scene.floor) {
+    // Its colour is the backdrop's; here it only hides what is under it.
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    glUseProgram(floor_depth_.get());
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  }
   // A vertex without colour is white.
   glVertexAttrib3f(kColorAttribute, 1.0F, 1.0F, 1.0F);
   glUseProgram(surface_.get());
@@ -67,10 +73,6 @@ void SurfacePass::draw_solids(const std::vector<DrawItem>& solids, const Scene& 
     set_look(item);
     draw_triangles(item);
   }
-  if (!scene.floor) return;
-  glUseProgram(floor_.get());
-  glBindVertexArray(nothing_.get());
-  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }
 
 void SurfacePass::draw_ghosts(const std::vector<DrawItem>& ghosts) {

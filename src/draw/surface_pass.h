@@ -19,7 +19,7 @@ class SurfacePass {
   SurfacePass() = default;
 
   GlProgram backdrop_;
-  GlProgram floor_;
+  GlProgram floor_depth_;
   GlProgram surface_;
   GlProgram ghost_;
   GlVertexArray nothing_;

@@ -13,6 +13,10 @@ layout(std140, binding = 0) uniform Frame {
   vec4 rim_light;
   vec4 near_extent;
   vec4 wide_extent;
+  vec4 near_casters;
+  vec4 wide_casters;
+  vec4 solids_low;
+  vec4 solids_high;
   vec4 focus;
   vec4 floor_place;
 } frame;

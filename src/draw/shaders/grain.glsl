@@ -32,3 +32,14 @@ vec3 bumped(vec3 normal, vec3 world, float height) {
   float turned_length = length(turned);
   return turned_length > 0.0 ? turned / turned_length : normal;
 }
+
+/// How much of a grain of this size (metres) a pixel can still show.
+float shown(float size, float pixel) { return 1.0 - smoothstep(0.35, 0.9, pixel / size); }
+
+/// Fur: noise drawn out along the lie of the hair, 0 to 1 about 0.5.
+// Based on: Cabral, Leedom. Imaging Vector Fields Using Line Integral Convolution. 1993.
+float hair(vec3 at, vec3 lie, float width) {
+  float sum = 0.0;
+  for (int i = -2; i <= 2; ++i) sum += noise((at + 1.4 * float(i) * width * lie) / width);
+  return clamp(0.5 + 1.5 * (sum / 5.0 - 0.5), 0.0, 1.0);
+}

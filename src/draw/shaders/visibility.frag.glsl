@@ -6,9 +6,13 @@ out vec2 visibility;  ///< of the key light, of the surroundings
 
 const int kTaps = 12;
 const float kReach = 0.035;     // metres
-const float kTurns = 5.0;       // of the spiral that the taps lie on
 const float kStrength = 1.1;
 const float kBias = 0.0006;     // metres
+/// The directions of a spiral of five turns.
+const vec2 kSpiral[kTaps] = vec2[](
+    vec2(1.0, 0.0), vec2(-0.8660254, 0.5), vec2(0.5, -0.8660254), vec2(0.0, 1.0),
+    vec2(-0.5, -0.8660254), vec2(0.8660254, 0.5), vec2(-1.0, 0.0), vec2(0.8660254, -0.5),
+    vec2(-0.5, 0.8660254), vec2(0.0, -1.0), vec2(0.5, 0.8660254), vec2(-0.8660254, -0.5));
 
 /// 0 to 1: each pixel of every 4 x 4 has a value of its own, so that these 16 make a fine whole.
 float pattern(ivec2 pixel) {
@@ -17,7 +21,7 @@ float pattern(ivec2 pixel) {
   return (float(kOrder[p.y * 4 + p.x]) + 0.5) / 16.0;
 }
 
-float surroundings_at(ivec2 pixel, vec3 position, vec3 normal, float turn) {
+float surroundings_at(ivec2 pixel, vec3 position, vec3 normal, float turn, mat2 turned) {
   float metre_px = 0.5 * frame.size.y / (frame.unproject.y * -position.z);
   float reach_px = min(kReach * metre_px, 0.12 * frame.size.y);
   if (reach_px < 1.0) return 1.0;
@@ -26,19 +30,17 @@ float surroundings_at(ivec2 pixel, vec3 position, vec3 normal, float turn) {
   float sum = 0.0;
   for (int i = 0; i < kTaps; ++i) {
     float share = (float(i) + turn) / float(kTaps);
-    float angle = 6.2831853 * (share * kTurns + turn);
-    ivec2 tap = pixel + ivec2(round(share * reach_px * vec2(cos(angle), sin(angle))));
+    ivec2 tap = pixel + ivec2(round(share * reach_px * (turned * kSpiral[i])));
     tap = clamp(tap, ivec2(0), last);
     float depth = texelFetch(depths, tap, 0).r;
-    if (depth <= 0.0) continue;
     vec3 to_tap = eye_position(vec2(tap) + 0.5, depth) - position;
     float far2 = dot(to_tap, to_tap);
     float above = dot(to_tap, normal) - kBias - 0.02 * sqrt(far2);
     float near = max(reach * reach - far2, 0.0);
-    sum += near * near * near * max(above / (far2 + 1e-6), 0.0);
+    sum += near * near * near * max(above, 0.0) / (far2 + 1e-6);
   }
-  float reach6 = pow(reach, 6.0);
-  return max(1.0 - sum * kStrength * 5.0 * reach / (reach6 * float(kTaps)) , 0.0);
+  float reach3 = reach * reach * reach;
+  return max(1.0 - sum * kStrength * 5.0 * reach / (reach3 * reach3 * float(kTaps)), 0.0);
 }
 
 void main() {
@@ -53,6 +55,12 @@ void main() {
   float turn = pattern(pixel);
   float angle = 6.2831853 * turn;
   mat2 turned = mat2(cos(angle), sin(angle), -sin(angle), cos(angle));
-  visibility.x = key_light_at(to_world(position), normal, turned);
-  visibility.y = surroundings_at(pixel, position, mat3(frame.view) * normal, turn);
+  vec3 world = to_world(position);
+  visibility.x = key_light_at(world, normal, turned);
+  visibility.y = 1.0;
+  // Far from all solids the floor is open.
+  if (all(greaterThan(world, frame.solids_low.xyz - kReach)) &&
+      all(lessThan(world, frame.solids_high.xyz + kReach))) {
+    visibility.y = surroundings_at(pixel, position, mat3(frame.view) * normal, turn, turned);
+  }
 }
