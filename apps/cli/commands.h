@@ -11,6 +11,7 @@ namespace nade::cli {
 using Action = std::function<Status()>;
 
 /// Each adds one subcommand; when it is parsed, `action` becomes what it does.
+void add_bench(CLI::App& app, Action& action);
 void add_convert(CLI::App& app, Action& action);
 void add_correct(CLI::App& app, Action& action);
 void add_figure(CLI::App& app, Action& action);

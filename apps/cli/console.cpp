@@ -23,8 +23,8 @@ void say(const std::string& line) {
   if (person_looks()) std::fprintf(stderr, "%s\n", line.c_str());
 }
 
-Progress::Progress(std::string what, std::size_t total)
-    : what_(std::move(what)), total_(total), shown_(person_looks()) {}
+Progress::Progress(std::string what, std::size_t total, std::string unit)
+    : what_(std::move(what)), unit_(std::move(unit)), total_(total), shown_(person_looks()) {}
 
 Progress::~Progress() {
   if (shown_) std::fputs("\r\033[K", stderr);
@@ -38,7 +38,7 @@ void Progress::step() {
   written_ = now;
   std::fprintf(stderr, "\r%s %zu", what_.c_str(), done_);
   if (total_ > 0) std::fprintf(stderr, " of %zu", total_);
-  std::fputs(" frames", stderr);
+  std::fprintf(stderr, " %s", unit_.c_str());
   if (total_ > done_) {
     const double spent_s = std::chrono::duration<double>(now - start_).count();
     const double left_s =

@@ -16,8 +16,8 @@ void say(const std::string& line);
 /// rewritten in place, only where a person is looking.
 class Progress {
  public:
-  /// `total` frames, 0 where it is not known.
-  Progress(std::string what, std::size_t total);
+  /// `total` frames, or what `unit` names; 0 where it is not known.
+  Progress(std::string what, std::size_t total, std::string unit = "frames");
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   ~Progress();
@@ -26,6 +26,7 @@ class Progress {
 
  private:
   std::string what_;
+  std::string unit_;
   std::size_t total_;
   std::size_t done_ = 0;
   bool shown_;

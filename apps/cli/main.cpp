@@ -26,6 +26,7 @@ int run(int argc, char** argv) {
   nade::cli::add_synth(app, action);
   nade::cli::add_convert(app, action);
   nade::cli::add_inspect(app, action);
+  nade::cli::add_bench(app, action);
 #ifdef NADE_CLI_DRAW
   nade::cli::add_render(app, action);
   nade::cli::add_figure(app, action);

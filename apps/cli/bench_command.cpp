@@ -1,0 +1,189 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "bench_report.h"
+#include "bench_run.h"
+#include "commands.h"
+#include "console.h"
+#include "nade/io/output_file.h"
+
+namespace nade::cli {
+namespace {
+
+struct BenchArguments {
+  bool quick = false;
+  bool full = false;
+  std::string methods;
+  std::string filter;
+  std::vector<std::string> meshes;
+  std::string clips;
+  std::size_t jobs = std::max(1U, std::thread::hardware_concurrency());
+  std::optional<std::string> json;
+  std::optional<std::string> csv;
+  std::optional<std::string> markdown;
+  std::string dump;
+};
+
+constexpr const char* kStandardStream = "-";
+
+/// All that this program was built with, in the order in which they are reported.
+std::vector<ComparedMethod> all_methods() { return library_methods(); }
+
+/// The methods of a list of names, parted by commas; all where there is none.
+Result<std::vector<ComparedMethod>> chosen_methods(std::string_view names) {
+  std::vector<ComparedMethod> known = all_methods();
+  if (names.empty()) return known;
+  std::vector<ComparedMethod> chosen;
+  while (true) {
+    const std::size_t end = std::min(names.find(','), names.size());
+    const std::string_view name = names.substr(0, end);
+    const auto found = std::find_if(known.begin(), known.end(), [&](const ComparedMethod& method) {
+      return method.name == name;
+    });
+    if (found == known.end()) {
+      std::string expected;
+      for (const ComparedMethod& method : known) {
+        expected += (expected.empty() ? "" : ", ") + method.name;
+      }
+      return Error{ErrorCode::out_of_range,
+                   fmt::format("--method '{}': expected some of {}", name, expected)};
+    }
+    const bool again = std::any_of(chosen.begin(), chosen.end(), [&](const ComparedMethod& method) {
+      return method.name == name;
+    });
+    if (!again) chosen.push_back(*found);
+    if (end == names.size()) return chosen;
+    names.remove_prefix(end + 1);
+  }
+}
+
+/// The recordings in a folder, by name.
+Result<std::vector<std::string>> clips_in(const std::string& folder) {
+  std::vector<std::string> clips;
+  std::error_code failed;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, failed)) {
+    const std::string name = entry.path().filename().string();
+    if (name.ends_with(".json") || name.ends_with(".jsonl") || name.ends_with(".gz")) {
+      clips.push_back(entry.path().string());
+    }
+  }
+  if (failed) {
+    return Error{ErrorCode::not_found,
+                 fmt::format("{}: expected a folder of recordings: {}", folder, failed.message())};
+  }
+  if (clips.empty()) {
+    return Error{ErrorCode::not_found,
+                 fmt::format("{}: expected recordings (.json, .jsonl, .gz), found none", folder)};
+  }
+  std::sort(clips.begin(), clips.end());
+  return clips;
+}
+
+Result<BenchPlan> plan_of(const BenchArguments& arguments) {
+  Result<std::vector<ComparedMethod>> methods = chosen_methods(arguments.methods);
+  if (!methods) return methods.error();
+  SuiteOptions options;
+  if (arguments.quick) options.size = SuiteSize::quick;
+  if (arguments.full) options.size = SuiteSize::full;
+  options.mesh_files = arguments.meshes;
+  if (!arguments.clips.empty()) {
+    Result<std::vector<std::string>> clips = clips_in(arguments.clips);
+    if (!clips) return clips.error();
+    options.clips = std::move(clips).value();
+  }
+  BenchPlan plan{suite_cases(options), std::move(methods).value(), arguments.jobs};
+  std::erase_if(plan.cases, [&](const SuiteCase& suite_case) {
+    return suite_case.name().find(arguments.filter) == std::string::npos;
+  });
+  if (plan.cases.empty()) {
+    return Error{ErrorCode::out_of_range,
+                 fmt::format("--filter '{}': no case has that in its name", arguments.filter)};
+  }
+  return plan;
+}
+
+Status write_reports(const BenchArguments& arguments, const BenchReport& report) {
+  const auto write = [](const std::optional<std::string>& path, const std::string& text) {
+    return path ? write_whole(*path, text) : ok_status();
+  };
+  for (const Status& written :
+       {write(arguments.json, as_json(report)), write(arguments.csv, as_csv(report)),
+        write(arguments.markdown, as_markdown(report))}) {
+    if (!written.ok()) return written;
+  }
+  for (const auto* path : {&arguments.json, &arguments.csv, &arguments.markdown}) {
+    if (*path == kStandardStream) return ok_status();
+  }
+  return write_whole(kStandardStream, as_text(report));
+}
+
+Status run_command(const BenchArguments& arguments) {
+  const auto to_stdout = [](const std::optional<std::string>& path) {
+    return path == kStandardStream ? 1 : 0;
+  };
+  if (to_stdout(arguments.json) + to_stdout(arguments.csv) + to_stdout(arguments.markdown) > 1) {
+    return Error{ErrorCode::out_of_range,
+                 "only one of --json, --csv and --markdown can be standard output"};
+  }
+  const Result<BenchPlan> plan = plan_of(arguments);
+  if (!plan) return plan.error();
+  const Result<DrawnHands> hands = load_drawn_hands();
+  if (!hands) return hands.error();
+  const Result<BenchReport> report = run_bench(*plan, *hands);
+  if (!report) return report.error();
+  if (!arguments.dump.empty()) {
+    const Status dumped = dump_worst(*plan, *hands, *report, arguments.dump);
+    if (!dumped.ok()) return dumped;
+  }
+  return write_reports(arguments, *report);
+}
+
+}  // namespace
+
+void add_bench(CLI::App& app, Action& action) {
+  CLI::App* const command =
+      app.add_subcommand("bench", "Compares all methods over a fixed suite of strokes");
+  const auto arguments = std::make_shared<BenchArguments>();
+  CLI::Option* const quick =
+      command->add_flag("--quick", arguments->quick, "a dozen short strokes only");
+  command->add_flag("--full", arguments->full, "every change at every place")->excludes(quick);
+  command
+      ->add_option("--method", arguments->methods,
+                   "which methods, parted by commas (default all): none, paper, nade, "
+                   "wrist-offset")
+      ->type_name("NAMES");
+  command->add_option("--filter", arguments->filter, "only cases with this in their names")
+      ->type_name("TEXT");
+  command->add_option("--mesh", arguments->meshes, "a mesh to stroke too, at its top; repeatable")
+      ->type_name("FILE");
+  command
+      ->add_option("--clips", arguments->clips,
+                   "a folder of recordings, each pressed 30 mm onto plane, sphere and dog")
+      ->type_name("DIR");
+  command->add_option("--jobs", arguments->jobs, "cases worked on at a time (default all cores)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 256));
+  command->add_option("--json", arguments->json, "writes all figures as JSON; - is stdout")
+      ->type_name("FILE");
+  command->add_option("--csv", arguments->csv, "writes a line a case and method; - is stdout")
+      ->type_name("FILE");
+  command->add_option("--markdown", arguments->markdown, "writes the tables; - is stdout")
+      ->type_name("FILE");
+  command
+      ->add_option("--dump", arguments->dump,
+                   "writes the recordings of each metric's worst cases, for nade render")
+      ->type_name("DIR");
+  command->callback(
+      [&action, arguments] { action = [arguments] { return run_command(*arguments); }; });
+}
+
+}  // namespace nade::cli

@@ -1,0 +1,197 @@
+#include "bench_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+namespace nade::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string shown(double value) { return fmt::format("{:.2f}", value); }
+
+std::string shown(const MetricTarget& target) {
+  if (target.at_least && target.at_most) {
+    return fmt::format("{:g} to {:g}", *target.at_least, *target.at_most);
+  }
+  if (target.at_least) return fmt::format("at least {:g}", *target.at_least);
+  if (target.at_most) return fmt::format("at most {:g}", *target.at_most);
+  return "";
+}
+
+bool has_target(const MetricTarget& target) { return target.at_least || target.at_most; }
+
+std::string met_of(const BenchFigure& figure, const BenchSummary& summary) {
+  if (!has_target(figure.target)) return "";
+  return fmt::format("{}/{}", summary.met, summary.measured);
+}
+
+std::string title_of(const BenchFigure& figure) {
+  std::string title = figure.key;
+  if (has_target(figure.target)) title += fmt::format(" ({})", shown(figure.target));
+  return title;
+}
+
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char character : text) {
+    if (character == '"') quoted += '"';
+    quoted += character;
+  }
+  return quoted + '"';
+}
+
+}  // namespace
+
+std::vector<BenchFigure> bench_figures() {
+  std::vector<BenchFigure> figures;
+  for (const MetricInfo& info : metric_table()) {
+    figures.push_back({info.key, info.unit, info.target, nullptr, info.value});
+  }
+  const auto add_time = [&](const char* key, double at_most,
+                            std::optional<double> (*time)(const CaseScore&)) {
+    figures.push_back({key, "us", {std::nullopt, at_most}, time, nullptr});
+  };
+  add_time("solve_us_median", 100.0, [](const CaseScore& score) { return score.solve_us_median; });
+  add_time("solve_us_p99", 300.0, [](const CaseScore& score) { return score.solve_us_p99; });
+  return figures;
+}
+
+std::optional<BenchSummary> summary_of(const BenchReport& report, std::size_t method,
+                                       const BenchFigure& figure) {
+  BenchSummary summary;
+  std::vector<double> values;
+  for (std::size_t i = 0; i < report.cases.size(); ++i) {
+    const std::optional<double> value = figure.of(report.at(i, method));
+    if (!value) continue;
+    if (meets(figure.target, *value).value_or(false)) ++summary.met;
+    const bool worse = badness(figure.target, *value) > badness(figure.target, summary.worst);
+    if (values.empty() || worse) {
+      summary.worst = *value;
+      summary.worst_case = i;
+    }
+    values.push_back(*value);
+  }
+  if (values.empty()) return std::nullopt;
+  summary.measured = values.size();
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  summary.median = *middle;
+  return summary;
+}
+
+std::string as_text(const BenchReport& report) {
+  std::string text;
+  auto out = std::back_inserter(text);
+  fmt::format_to(out, "{} cases\n\n{:<30}{:<14}{:>10}{:>12}{:>10}  {}\n", report.cases.size(),
+                 "metric", "method", "median", "worst", "met", "worst case");
+  for (const BenchFigure& figure : bench_figures()) {
+    // The target stands under the name.
+    std::vector<std::string> titles{
+        figure.key, has_target(figure.target) ? "  " + shown(figure.target) : std::string()};
+    titles.resize(std::max(titles.size(), report.methods.size()));
+    for (std::size_t m = 0; m < report.methods.size(); ++m) {
+      const auto summary = summary_of(report, m, figure);
+      fmt::format_to(out, "{:<30}{:<14}", titles[m], report.methods[m]);
+      if (summary) {
+        fmt::format_to(out, "{:>10}{:>12}{:>10}  {}", shown(summary->median), shown(summary->worst),
+                       met_of(figure, *summary), report.cases[summary->worst_case]);
+      } else {
+        fmt::format_to(out, "{:>10}", "-");
+      }
+      text += '\n';
+    }
+  }
+  return text;
+}
+
+std::string as_markdown(const BenchReport& report) {
+  const std::vector<BenchFigure> figures = bench_figures();
+  std::string text;
+  auto out = std::back_inserter(text);
+  fmt::format_to(out, "| {} cases: median, worst (target met in) |", report.cases.size());
+  for (const std::string& method : report.methods) fmt::format_to(out, " {} |", method);
+  text += "\n|---|";
+  for (std::size_t m = 0; m < report.methods.size(); ++m) text += "--:|";
+  text += '\n';
+  for (const BenchFigure& figure : figures) {
+    fmt::format_to(out, "| {} |", title_of(figure));
+    for (std::size_t m = 0; m < report.methods.size(); ++m) {
+      const auto summary = summary_of(report, m, figure);
+      if (!summary) {
+        text += " - |";
+        continue;
+      }
+      const std::string met = met_of(figure, *summary);
+      fmt::format_to(out, " {}, {}{} |", shown(summary->median), shown(summary->worst),
+                     met.empty() ? "" : " (" + met + ")");
+    }
+    text += '\n';
+  }
+  text += "\n| worst case of |";
+  for (const std::string& method : report.methods) fmt::format_to(out, " {} |", method);
+  text += "\n|---|";
+  for (std::size_t m = 0; m < report.methods.size(); ++m) text += "---|";
+  text += '\n';
+  for (const BenchFigure& figure : figures) {
+    fmt::format_to(out, "| {} |", figure.key);
+    for (std::size_t m = 0; m < report.methods.size(); ++m) {
+      const auto summary = summary_of(report, m, figure);
+      fmt::format_to(out, " {} |", summary ? report.cases[summary->worst_case] : "-");
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+std::string as_csv(const BenchReport& report) {
+  const std::vector<BenchFigure> figures = bench_figures();
+  std::string text = "case,method,frames,pressing_frames";
+  auto out = std::back_inserter(text);
+  for (const BenchFigure& figure : figures) fmt::format_to(out, ",{}", figure.key);
+  text += '\n';
+  for (std::size_t i = 0; i < report.cases.size(); ++i) {
+    for (std::size_t m = 0; m < report.methods.size(); ++m) {
+      const CaseScore& score = report.at(i, m);
+      fmt::format_to(out, "{},{},{},{}", csv_field(report.cases[i]), report.methods[m],
+                     score.metrics.frames, score.metrics.pressing_frames);
+      for (const BenchFigure& figure : figures) {
+        const std::optional<double> value = figure.of(score);
+        text += value ? fmt::format(",{:.6g}", *value) : ",";
+      }
+      text += '\n';
+    }
+  }
+  return text;
+}
+
+std::string as_json(const BenchReport& report) {
+  Json json{{"cases", report.cases}};
+  const std::vector<BenchFigure> figures = bench_figures();
+  for (std::size_t m = 0; m < report.methods.size(); ++m) {
+    Json& method = json["methods"][report.methods[m]];
+    for (const BenchFigure& figure : figures) {
+      const auto summary = summary_of(report, m, figure);
+      Json& entry = method[figure.key];
+      if (!summary) continue;
+      entry = {{"median", summary->median},
+               {"worst", summary->worst},
+               {"worst_case", report.cases[summary->worst_case]},
+               {"measured", summary->measured}};
+      if (has_target(figure.target)) entry["met"] = summary->met;
+      Json& values = entry["values"] = Json::array();
+      for (std::size_t i = 0; i < report.cases.size(); ++i) {
+        const std::optional<double> value = figure.of(report.at(i, m));
+        values.push_back(value ? Json(*value) : Json(nullptr));
+      }
+    }
+  }
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace nade::cli

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "nade/eval/synth.h"
+#include "nade/io/object_file.h"
+#include "nade/io/recording.h"
+#include "nade/status.h"
+
+namespace nade {
+
+/// One stroke of the suite: what moves how over which object.
+struct SuiteCase {
+  std::string object;  ///< of load_suite_object
+  /// The stroke, where no recording takes its place.
+  SynthOptions synth;
+  /// A recording of real hands, a file of any known format.
+  std::optional<std::string> clip;
+  /// How deep the object is pressed against a clip's palms, metres.
+  double press_m = 0.03;
+
+  /// What tells it from the others, in words: "dog/back line 0.1 m/s 20 mm quest left". Only what
+  /// is out of the ordinary is named after the depth.
+  [[nodiscard]] std::string name() const;
+};
+
+enum class SuiteSize : std::uint8_t {
+  quick,   ///< a dozen short strokes, for tests
+  normal,  ///< one thing changed at a time, and a few dozen random strokes: about 120
+  full,    ///< the same at every place, and 200 random strokes
+};
+
+struct SuiteOptions {
+  SuiteSize size = SuiteSize::normal;
+  /// Mesh files that are stroked too, at their place or their top.
+  std::vector<std::string> mesh_files;
+  /// Recordings of real hands, each pressed onto plane, sphere and dog.
+  std::vector<std::string> clips;
+};
+
+/// The cases, the same on every machine.
+[[nodiscard]] std::vector<SuiteCase> suite_cases(const SuiteOptions& options);
+
+/// What a stroke follows.
+enum class StrokeGuide : std::uint8_t {
+  surface,  ///< the object's own surface
+  plane,    ///< flat on, through the place: over an edge and beyond
+};
+
+/// An object of the suite.
+struct SuiteObject {
+  LoadedObject loaded;
+  StrokeGuide guide = StrokeGuide::surface;
+};
+
+/// Loads "bowl", "board", "box" (nade/eval/shapes.h), or what load_object knows.
+[[nodiscard]] Result<SuiteObject> load_suite_object(const std::string& name);
+
+/// A case as a recording.
+struct CaseRecording {
+  RecordingHeader header;  ///< bears the object and its placing
+  Placement placement;     ///< of the object
+  std::vector<RecordedFrame> frames;
+};
+
+/// Makes the stroke, or reads the clip and presses the object against it. `object` is the case's.
+[[nodiscard]] Result<CaseRecording> make_recording(const SuiteCase& suite_case,
+                                                   const SuiteObject& object);
+
+}  // namespace nade
