@@ -8,18 +8,25 @@ endif()
 if(NADE_BUILD_EVAL)
   list(APPEND nade_libraries nade_eval)
 endif()
+if(NADE_BUILD_DRAW)
+  list(APPEND nade_libraries nade_draw)
+endif()
 install(TARGETS ${nade_libraries} EXPORT nadeTargets)
 install(EXPORT nadeTargets NAMESPACE nade:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/nade)
 
 install(DIRECTORY include/nade DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   FILES_MATCHING PATTERN "*.h"
   PATTERN "io" EXCLUDE
-  PATTERN "eval" EXCLUDE)
+  PATTERN "eval" EXCLUDE
+  PATTERN "draw" EXCLUDE)
 if(NADE_BUILD_IO)
   install(DIRECTORY include/nade/io DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nade)
 endif()
 if(NADE_BUILD_EVAL)
   install(DIRECTORY include/nade/eval DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nade)
+endif()
+if(NADE_BUILD_DRAW)
+  install(DIRECTORY include/nade/draw DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nade)
 endif()
 
 configure_package_config_file(cmake/nadeConfig.cmake.in nadeConfig.cmake

@@ -85,7 +85,7 @@ OverlayPass::Revolved OverlayPass::make_revolved(const Profile& profile) const {
     for (int step = 0; step < kAround; ++step) {
       const std::array<Vertex, 4> corners{at(profile[i], step), at(profile[i], step + 1),
                                           at(profile[i + 1], step), at(profile[i + 1], step + 1)};
-      for (const std::size_t k : {0, 1, 2, 2, 1, 3}) vertices.push_back(corners[k]);
+      for (const std::size_t k : {0U, 1U, 2U, 2U, 1U, 3U}) vertices.push_back(corners[k]);
     }
   }
   Revolved revolved;

@@ -1,6 +1,7 @@
 #include "nade/draw/renderer.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "depth_probe.h"
@@ -22,10 +23,19 @@ constexpr GLuint kFrameBinding = 0;
 
 /// Every state that our passes rely on, whoever used the context before.
 void take_over_state() {
-  for (const GLenum state :
-       {GL_BLEND, GL_CULL_FACE, GL_DEPTH_CLAMP, GL_FRAMEBUFFER_SRGB, GL_POLYGON_OFFSET_FILL,
-        GL_PRIMITIVE_RESTART, GL_RASTERIZER_DISCARD, GL_SAMPLE_ALPHA_TO_COVERAGE, GL_SAMPLE_MASK,
-        GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_COLOR_LOGIC_OP}) {
+  constexpr std::array<GLenum, 12> kOff{GL_BLEND,
+                                        GL_CULL_FACE,
+                                        GL_DEPTH_CLAMP,
+                                        GL_FRAMEBUFFER_SRGB,
+                                        GL_POLYGON_OFFSET_FILL,
+                                        GL_PRIMITIVE_RESTART,
+                                        GL_RASTERIZER_DISCARD,
+                                        GL_SAMPLE_ALPHA_TO_COVERAGE,
+                                        GL_SAMPLE_MASK,
+                                        GL_SCISSOR_TEST,
+                                        GL_STENCIL_TEST,
+                                        GL_COLOR_LOGIC_OP};
+  for (const GLenum state : kOff) {
     glDisable(state);
   }
   glEnable(GL_MULTISAMPLE);

@@ -13,14 +13,16 @@ constexpr GLint kMaterialUniform = 2;
 constexpr GLint kTexturedUniform = 3;
 constexpr GLint kOpacityUniform = 4;
 
-void set_look(const DrawItem& item) {
-  const Material& material = item.mesh->material;
-  const Color color = material.base_color.cwiseProduct(item.instance->tint);
+void set_color(const DrawItem& item) {
+  const Color color = item.mesh->material.base_color.cwiseProduct(item.instance->tint);
   glUniform3fv(kBaseColorUniform, 1, color.data());
-  glUniform4f(kMaterialUniform, material.roughness, material.metalness, material.sheen,
-              material.translucency);
   glUniform1i(kTexturedUniform, item.mesh->texture ? 1 : 0);
   glBindTextureUnit(kColorUnit, item.mesh->texture.get());
+}
+
+void set_material(const Material& material) {
+  glUniform4f(kMaterialUniform, material.roughness, material.metalness, material.sheen,
+              material.translucency);
 }
 
 }  // namespace
@@ -70,7 +72,8 @@ void SurfacePass::draw_solids(const std::vector<DrawItem>& solids, const Scene& 
   glVertexAttrib3f(kColorAttribute, 1.0F, 1.0F, 1.0F);
   glUseProgram(surface_.get());
   for (const DrawItem& item : solids) {
-    set_look(item);
+    set_color(item);
+    set_material(item.mesh->material);
     draw_triangles(item);
   }
 }
@@ -83,7 +86,7 @@ void SurfacePass::draw_ghosts(const std::vector<DrawItem>& ghosts) {
   glEnable(GL_CULL_FACE);
   glEnable(GL_BLEND);
   for (const DrawItem& item : ghosts) {
-    set_look(item);
+    set_color(item);
     if (item.instance->shows_behind > 0.0F) {
       glUniform1f(kOpacityUniform, item.instance->opacity * item.instance->shows_behind);
       glDepthMask(GL_FALSE);

@@ -11,7 +11,7 @@ void main() {
     if (away < frame.floor_place.z) {
       vec2 light = received_light(depth);
       float fade = smoothstep(0.95 * frame.floor_place.z, 0.3 * frame.floor_place.z, away);
-      vec3 shade = mix(vec3(0.42, 0.43, 0.465), vec3(1.0), light.x) * mix(0.35, 1.0, light.y);
+      vec3 shade = mix(vec3(0.42, 0.43, 0.465), vec3(1.0), light.x) * mix(0.2, 1.0, light.y);
       wall *= mix(vec3(1.0), shade, fade);
     }
   }

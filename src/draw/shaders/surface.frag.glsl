@@ -76,7 +76,8 @@ vec3 lit(Surface s, float key, float open, float sheen, float translucency) {
   vec3 result = s.albedo * (light / kPi + 0.62 * irradiance(s.normal) * around);
   float nv = clamp(dot(s.normal, s.to_eye), 0.0, 1.0);
   result += kKeyColor * key * key_gloss(s);
-  result += wall_gloss(s) * open * open;
+  // Where much is shut out, so is what a mirror there would show.
+  result += wall_gloss(s) * open * open * mix(0.45, 1.0, key);
   // Fibres catch light at the rim.
   float rim = (1.0 - nv) * (1.0 - nv) * (1.0 - nv);
   result += sheen * rim * open * s.albedo * (0.6 * irradiance(s.normal) + 0.35 * key_light);

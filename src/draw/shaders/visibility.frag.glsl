@@ -4,15 +4,20 @@ layout(binding = 2) uniform sampler2D normals;
 
 out vec2 visibility;  ///< of the key light, of the surroundings
 
-const int kTaps = 12;
-const float kReach = 0.035;     // metres
-const float kStrength = 1.1;
-const float kBias = 0.0006;     // metres
+/// Two reaches, metres: what stands about, and the crease where skin meets what it touches.
+const int kFarTaps = 9;
+const int kNearTaps = 5;
+const float kFarReach = 0.032;
+const float kNearReach = 0.008;
+const float kFarStrength = 1.7;
+const float kNearStrength = 1.8;
+const float kBias = 0.0004;  // metres
 /// The directions of a spiral of five turns.
-const vec2 kSpiral[kTaps] = vec2[](
+const vec2 kSpiral[kFarTaps + kNearTaps] = vec2[](
     vec2(1.0, 0.0), vec2(-0.8660254, 0.5), vec2(0.5, -0.8660254), vec2(0.0, 1.0),
     vec2(-0.5, -0.8660254), vec2(0.8660254, 0.5), vec2(-1.0, 0.0), vec2(0.8660254, -0.5),
-    vec2(-0.5, 0.8660254), vec2(0.0, -1.0), vec2(0.5, 0.8660254), vec2(-0.8660254, -0.5));
+    vec2(-0.5, 0.8660254), vec2(0.0, -1.0), vec2(0.5, 0.8660254), vec2(-0.8660254, -0.5),
+    vec2(1.0, 0.0), vec2(-0.8660254, 0.5));
 
 /// 0 to 1: each pixel of every 4 x 4 has a value of its own, so that these 16 make a fine whole.
 float pattern(ivec2 pixel) {
@@ -21,16 +26,18 @@ float pattern(ivec2 pixel) {
   return (float(kOrder[p.y * 4 + p.x]) + 0.5) / 16.0;
 }
 
-float surroundings_at(ivec2 pixel, vec3 position, vec3 normal, float turn, mat2 turned) {
+/// What is open of the surroundings within a reach; the taps start at `first` of the spiral.
+float open_within(float full_reach, float strength, int first, int taps, ivec2 pixel, vec3 position,
+                  vec3 normal, float turn, mat2 turned) {
   float metre_px = 0.5 * frame.size.y / (frame.unproject.y * -position.z);
-  float reach_px = min(kReach * metre_px, 0.12 * frame.size.y);
-  if (reach_px < 1.0) return 1.0;
+  float reach_px = min(full_reach * metre_px, 0.15 * frame.size.y);
+  if (reach_px < 1.5) return 1.0;
   float reach = reach_px / metre_px;
   ivec2 last = ivec2(frame.size.xy) - 1;
   float sum = 0.0;
-  for (int i = 0; i < kTaps; ++i) {
-    float share = (float(i) + turn) / float(kTaps);
-    ivec2 tap = pixel + ivec2(round(share * reach_px * (turned * kSpiral[i])));
+  for (int i = 0; i < taps; ++i) {
+    float share = (float(i) + turn) / float(taps);
+    ivec2 tap = pixel + ivec2(round(share * reach_px * (turned * kSpiral[first + i])));
     tap = clamp(tap, ivec2(0), last);
     float depth = texelFetch(depths, tap, 0).r;
     vec3 to_tap = eye_position(vec2(tap) + 0.5, depth) - position;
@@ -40,7 +47,8 @@ float surroundings_at(ivec2 pixel, vec3 position, vec3 normal, float turn, mat2 
     sum += near * near * near * max(above, 0.0) / (far2 + 1e-6);
   }
   float reach3 = reach * reach * reach;
-  return max(1.0 - sum * kStrength * 5.0 * reach / (reach3 * reach3 * float(kTaps)), 0.0);
+  // Never quite dark: light comes round by way of other surfaces.
+  return 1.0 / (1.0 + sum * strength * 5.0 * reach / (reach3 * reach3 * float(taps)));
 }
 
 void main() {
@@ -59,8 +67,12 @@ void main() {
   visibility.x = key_light_at(world, normal, turned);
   visibility.y = 1.0;
   // Far from all solids the floor is open.
-  if (all(greaterThan(world, frame.solids_low.xyz - kReach)) &&
-      all(lessThan(world, frame.solids_high.xyz + kReach))) {
-    visibility.y = surroundings_at(pixel, position, mat3(frame.view) * normal, turn, turned);
+  if (all(greaterThan(world, frame.solids_low.xyz - kFarReach)) &&
+      all(lessThan(world, frame.solids_high.xyz + kFarReach))) {
+    vec3 seen = mat3(frame.view) * normal;
+    float near = open_within(kNearReach, kNearStrength, kFarTaps, kNearTaps, pixel, position, seen,
+                             turn, turned);
+    visibility.y = mix(0.4, 1.0, near) * open_within(kFarReach, kFarStrength, 0, kFarTaps, pixel,
+                                                     position, seen, turn, turned);
   }
 }
