@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -169,10 +170,14 @@ std::vector<SuiteCase> quick_cases(const SuiteOptions& options) {
 std::vector<SuiteCase> synthetic_cases(const SuiteOptions& options) {
   const std::vector<StrokePlace> places = stroke_places(options);
   std::vector<SuiteCase> cases;
-  const auto append = [&](std::vector<SuiteCase> more) {
-    std::move(more.begin(), more.end(), std::back_inserter(cases));
+  std::set<std::string> names;
+  const auto add = [&](SuiteCase more) {
+    if (names.insert(more.name()).second) cases.push_back(std::move(more));
   };
-  for (const StrokePlace& where : places) cases.push_back(base_case(where, options.size));
+  const auto append = [&](std::vector<SuiteCase> more) {
+    for (SuiteCase& one : more) add(std::move(one));
+  };
+  for (const StrokePlace& where : places) add(base_case(where, options.size));
   for (const StrokePlace& where : places) {
     const bool common = where.object == "plane" || where.object == "sphere:0.15" ||
                         (where.object == "dog" && where.place == "back");
@@ -183,7 +188,7 @@ std::vector<SuiteCase> synthetic_cases(const SuiteOptions& options) {
   const std::vector<StrokePlace> own = stroke_places({});
   Random random(kSeed);
   const int count = options.size == SuiteSize::full ? kRandomFull : kRandomNormal;
-  for (int i = 0; i < count; ++i) cases.push_back(random_case(own, options.size, random));
+  for (int i = 0; i < count; ++i) add(random_case(own, options.size, random));
   return cases;
 }
 
@@ -194,7 +199,8 @@ std::string peculiarities(const SynthOptions& synth) {
   if (synth.noise != NoiseModel::none) text += fmt::format(" {}", name_of(synth.noise));
   if (synth.hand_scale != 1.0) text += fmt::format(" size {:g}", synth.hand_scale);
   if (synth.side == Handedness::left) text += " left";
-  if (synth.seed != SynthOptions{}.seed) text += fmt::format(" #{}", synth.seed);
+  const bool seeded = synth.noise != NoiseModel::none && synth.seed != SynthOptions{}.seed;
+  if (seeded) text += fmt::format(" #{}", synth.seed);
   return text;
 }
 

@@ -95,7 +95,8 @@ HandPose WristOffset::update(const HandPose& tracked, const Object& object) noex
   for (Vec3& point : skin_) point += shift;
   for (int i = 0; i < kMendings; ++i) {
     const auto inside = deepest(object);
-    if (!inside) break;
+    // Out on a wall's far side would be through it.
+    if (!inside || inside->normal.dot(*normal_) < 0.0) break;
     const Vec3 more = inside->length_m * inside->normal;
     for (Vec3& point : skin_) point += more;
     shift += more;

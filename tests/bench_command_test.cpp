@@ -1,0 +1,83 @@
+// `nade bench` as a person meets it.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "support/cli_run.h"
+
+namespace {
+
+using nade::test::CliTest;
+using nade::test::Ran;
+using nade::test::read_file;
+
+class BenchCommand : public CliTest {};
+
+/// A CSV file without its last two columns, which are times.
+std::string without_times(const std::string& csv) {
+  std::istringstream in(csv);
+  std::string text;
+  for (std::string line; std::getline(in, line);) {
+    for (int i = 0; i < 2; ++i) line.resize(line.rfind(','));
+    text += line + '\n';
+  }
+  return text;
+}
+
+TEST_F(BenchCommand, QuickSuiteIsTheSameWhateverTheJobs) {
+  const Ran one = nade("bench --quick --jobs 1 --csv one.csv --json one.json --markdown one.md");
+  ASSERT_EQ(one.status, 0) << one.err;
+  for (const char* const part : {"paper", "wrist-offset", "penetration_max_mm", "pop_max_mm"}) {
+    EXPECT_NE(one.out.find(part), std::string::npos) << part;
+  }
+  const auto json = nlohmann::json::parse(read_file(path("one.json")));
+  EXPECT_EQ(json["cases"].size(), 12u);
+  EXPECT_EQ(json["methods"]["paper"]["penetration_max_mm"]["values"].size(), 12u);
+  EXPECT_EQ(json["methods"]["none"]["pop_max_mm"]["worst"], 0.0);
+  EXPECT_LT(json["methods"]["nade"]["penetration_max_mm"]["median"],
+            json["methods"]["none"]["penetration_max_mm"]["median"]);
+  const std::string table = read_file(path("one.md"));
+  EXPECT_NE(table.find("| penetration_max_mm (at most 2) |"), std::string::npos);
+  const Ran two = nade("bench --quick --jobs 2 --csv - ");
+  ASSERT_EQ(two.status, 0) << two.err;
+  EXPECT_EQ(without_times(two.out), without_times(read_file(path("one.csv"))));
+}
+
+TEST_F(BenchCommand, WorstCasesCanBeMeasuredAgain) {
+  const Ran ran = nade("bench --quick --filter box/ --method paper,none --csv - --dump worst");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_NE(read_file(path("worst/worst.txt")).find("penetration_max_mm paper"), std::string::npos);
+  const Ran again = shell(
+      "for d in worst/box-*/; do \"$NADE\" measure $d/tracked.jsonl.gz $d/paper.jsonl.gz --csv - "
+      "|| exit 1; done");
+  ASSERT_EQ(again.status, 0) << again.err;
+  // The case's figures in the bench's table stand in the measurement as well.
+  EXPECT_NE(again.out.find("box.off"), std::string::npos);
+}
+
+TEST_F(BenchCommand, OnlyTheMethodsAskedFor) {
+  const Ran ran = nade("bench --quick --filter plane --method wrist-offset,none");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_EQ(ran.out.find("paper"), std::string::npos);
+  EXPECT_LT(ran.out.find("wrist-offset"), ran.out.find("none  "));
+}
+
+TEST_F(BenchCommand, RefusesInOneSentence) {
+  for (const std::string& arguments : std::vector<std::string>{
+           "--method magic", "--method none,", "--filter nothing-like-it", "--csv - --json -"}) {
+    const Ran ran = nade("bench --quick " + arguments);
+    EXPECT_EQ(ran.status, 2) << arguments;
+    EXPECT_EQ(ran.out, "") << arguments;
+    EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+  }
+  expect_failure(nade("bench --quick --clips nowhere"), "nowhere");
+  expect_failure(nade("bench --quick --mesh nowhere.obj"), "nowhere.obj");
+  expect_failure(nade("bench --quick --filter plane --csv nowhere/out.csv"), "nowhere/out.csv");
+}
+
+}  // namespace

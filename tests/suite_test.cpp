@@ -1,0 +1,155 @@
+// The suite on which methods are compared: its cases, its shapes, and the wrist offset.
+
+#include "nade/eval/suite.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+#include <string>
+
+#include "nade/eval/compare.h"
+#include "nade/eval/shapes.h"
+#include "nade/eval/wrist_offset.h"
+#include "nade/io/object_file.h"
+
+namespace {
+
+using namespace nade;
+
+/// Where the hands and the dog were built.
+void use_built_assets() {
+  const std::string hands = NADE_TEST_HANDS_DIR;
+  ::setenv("NADE_ASSETS", hands.substr(0, hands.rfind('/')).c_str(), 1);
+}
+
+TEST(Suite, SizesAndNames) {
+  for (const SuiteSize size : {SuiteSize::quick, SuiteSize::normal, SuiteSize::full}) {
+    const std::vector<SuiteCase> cases = suite_cases({.size = size});
+    std::set<std::string> names;
+    for (const SuiteCase& suite_case : cases) names.insert(suite_case.name());
+    EXPECT_EQ(names.size(), cases.size()) << "two cases of one name";
+    const std::size_t least = size == SuiteSize::quick ? 10 : size == SuiteSize::normal ? 110 : 300;
+    EXPECT_GE(cases.size(), least);
+  }
+  EXPECT_EQ(suite_cases({}).front().name(), "plane line 0.1 m/s 20 mm");
+}
+
+TEST(Suite, TheSameEveryTime) {
+  const std::vector<SuiteCase> once = suite_cases({});
+  const std::vector<SuiteCase> twice = suite_cases({.mesh_files = {"other.obj"}});
+  EXPECT_EQ(once.size() + 1, twice.size());
+  EXPECT_EQ(once.back().name(), twice.back().name());
+}
+
+TEST(Suite, CoversWhatHandsDo) {
+  std::set<Stroke> strokes;
+  std::set<NoiseModel> noises;
+  std::set<std::string> objects;
+  bool left = false;
+  for (const SuiteCase& suite_case : suite_cases({})) {
+    strokes.insert(suite_case.synth.stroke);
+    noises.insert(suite_case.synth.noise);
+    objects.insert(suite_case.object);
+    left |= suite_case.synth.side == Handedness::left;
+  }
+  EXPECT_EQ(strokes.size(), 5u);
+  EXPECT_EQ(noises.size(), 3u);
+  EXPECT_EQ(objects.size(), 8u);
+  EXPECT_TRUE(left);
+}
+
+TEST(Suite, EveryCaseOfTheQuickSuitePresses) {
+  use_built_assets();
+  const Result<DrawnHands> hands = load_drawn_hands();
+  ASSERT_TRUE(hands.ok()) << hands.error().message;
+  const std::vector<ComparedMethod> methods = library_methods();
+  for (const SuiteCase& suite_case : suite_cases({.size = SuiteSize::quick})) {
+    const Result<SuiteObject> object = load_suite_object(suite_case.object);
+    ASSERT_TRUE(object.ok()) << object.error().message;
+    const Result<CaseRecording> recording = make_recording(suite_case, *object);
+    ASSERT_TRUE(recording.ok()) << recording.error().message;
+    const CaseScore none = score(suite_case, *recording, *object, *hands, methods.front());
+    EXPECT_GT(none.metrics.pressing_frames, 40u) << suite_case.name();
+    EXPECT_GT(none.metrics.penetration_max_mm.value_or(0.0), 3.0) << suite_case.name();
+    EXPECT_EQ(none.metrics.jitter_ratio, 1.0) << suite_case.name();
+  }
+}
+
+TEST(Suite, UnknownObjectsAndClipsAreNamed) {
+  EXPECT_FALSE(load_suite_object("cat").ok());
+  SuiteCase clip;
+  clip.object = "plane";
+  clip.clip = "nowhere.json";
+  EXPECT_EQ(clip.name(), "plane nowhere pressed 30 mm");
+  const Result<SuiteObject> plane = load_suite_object("plane");
+  const Result<CaseRecording> recording = make_recording(clip, *plane);
+  ASSERT_FALSE(recording.ok());
+  EXPECT_NE(recording.error().message.find("nowhere.json"), std::string::npos);
+}
+
+TEST(Shapes, AreClosedAndSolidWhereTheyShouldBe) {
+  struct Probe {
+    const char* name;
+    Vec3 inside;
+    Vec3 outside;
+  };
+  for (const Probe& probe : {Probe{"bowl", {0.0, -0.004, 0.0}, {0.0, 0.05, 0.0}},
+                             Probe{"bowl", {0.154, 0.149, 0.0}, {0.154, 0.151, 0.0}},
+                             Probe{"board", {0.1, -0.009, 0.1}, {0.1, -0.011, 0.1}},
+                             Probe{"box", {0.0, -0.01, 0.01}, {0.0, -0.01, -0.01}}}) {
+    const Result<SuiteObject> object = load_suite_object(probe.name);
+    ASSERT_TRUE(object.ok()) << object.error().message;
+    const auto* mesh = dynamic_cast<const MeshSurface*>(object->loaded.surface.get());
+    ASSERT_NE(mesh, nullptr);
+    EXPECT_EQ(mesh->report().solid, MeshSolid::closed);
+    EXPECT_EQ(mesh->report().triangles_turned, 0u) << probe.name;
+    SurfaceHint hint;
+    const Object placed = object->loaded.placed();
+    EXPECT_LT(placed.closest_point(probe.inside, 1.0, hint)->signed_distance, 0.0) << probe.name;
+    EXPECT_GT(placed.closest_point(probe.outside, 1.0, hint)->signed_distance, 0.0) << probe.name;
+    for (const MeshPlace& place : object->loaded.places) {
+      const auto nearest = placed.closest_point(place.pose.position, 0.1, hint);
+      EXPECT_NEAR(nearest->signed_distance, 0.0, 1e-4) << probe.name << " " << place.name;
+    }
+  }
+}
+
+TEST(WristOffset, LiftsTheHandAndKeepsItsFingers) {
+  use_built_assets();
+  const Result<DrawnHands> hands = load_drawn_hands();
+  ASSERT_TRUE(hands.ok()) << hands.error().message;
+  const Result<SuiteObject> plane = load_suite_object("plane");
+  const Object object = plane->loaded.placed();
+  HandPose hand = hands->meshes[1].bind;
+  hand = moved(hand, {Vec3(0.0, -0.03, 0.0) - hand[Joint::palm].position, Quat::Identity()});
+  WristOffset offset(hands->flesh[1], 1.0);
+  const HandPose lifted = offset.update(hand, object);
+  const Vec3 shift = lifted[Joint::palm].position - hand[Joint::palm].position;
+  EXPECT_GT(shift.y(), 0.03);
+  EXPECT_NEAR(shift.x(), 0.0, 1e-9);
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    EXPECT_TRUE((lifted.joints[i].position - hand.joints[i].position).isApprox(shift, 1e-9));
+    EXPECT_LT(lifted.joints[i].rotation.angularDistance(hand.joints[i].rotation), 1e-6);
+  }
+  const HandPose above = moved(hand, {Vec3(0.0, 0.3, 0.0), Quat::Identity()});
+  EXPECT_EQ(offset.update(above, object)[Joint::palm].position, above[Joint::palm].position);
+}
+
+TEST(WristOffset, IsNotPushedThroughABoard) {
+  use_built_assets();
+  const Result<DrawnHands> hands = load_drawn_hands();
+  ASSERT_TRUE(hands.ok()) << hands.error().message;
+  const Result<SuiteObject> board = load_suite_object("board");
+  const Object object = board->loaded.placed();
+  HandPose hand = hands->meshes[1].bind;
+  WristOffset offset(hands->flesh[1], 1.0);
+  for (int step = 0; step <= 100; ++step) {
+    const double height = 0.05 - 0.001 * step;
+    hand = moved(hand, {Vec3(0.0, height, 0.0) - hand[Joint::palm].position, Quat::Identity()});
+    EXPECT_GT(offset.update(hand, object)[Joint::palm].position.y(), 0.0) << height;
+  }
+}
+
+}  // namespace
