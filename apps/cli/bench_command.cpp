@@ -15,6 +15,9 @@
 #include "commands.h"
 #include "console.h"
 #include "nade/io/output_file.h"
+#ifdef NADE_CLI_PHYSICS
+#include "physics_hand.h"
+#endif
 
 namespace nade::cli {
 namespace {
@@ -36,7 +39,13 @@ struct BenchArguments {
 constexpr const char* kStandardStream = "-";
 
 /// All that this program was built with, in the order in which they are reported.
-std::vector<ComparedMethod> all_methods() { return library_methods(); }
+std::vector<ComparedMethod> all_methods() {
+  std::vector<ComparedMethod> methods = library_methods();
+#ifdef NADE_CLI_PHYSICS
+  methods.push_back(physics_method());
+#endif
+  return methods;
+}
 
 /// The methods of a list of names, parted by commas; all where there is none.
 Result<std::vector<ComparedMethod>> chosen_methods(std::string_view names) {
@@ -140,6 +149,9 @@ Status run_command(const BenchArguments& arguments) {
   if (!hands) return hands.error();
   const Result<BenchReport> report = run_bench(*plan, *hands);
   if (!report) return report.error();
+#ifndef NADE_CLI_PHYSICS
+  if (arguments.methods.empty()) warn("no physics hand: built without Bullet (libbullet-dev)");
+#endif
   if (!arguments.dump.empty()) {
     const Status dumped = dump_worst(*plan, *hands, *report, arguments.dump);
     if (!dumped.ok()) return dumped;
@@ -159,7 +171,7 @@ void add_bench(CLI::App& app, Action& action) {
   command
       ->add_option("--method", arguments->methods,
                    "which methods, parted by commas (default all): none, paper, nade, "
-                   "wrist-offset")
+                   "wrist-offset, and physics where built with Bullet")
       ->type_name("NAMES");
   command->add_option("--filter", arguments->filter, "only cases with this in their names")
       ->type_name("TEXT");
