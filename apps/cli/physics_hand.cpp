@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "nade/eval/wrist_offset.h"
 #include "nade/skeleton.h"
 
 namespace nade::cli {
@@ -350,16 +351,19 @@ class PhysicsHand {
   CorrectedHand update(const HandPose& tracked, const Object& object, std::int64_t time_ns) {
     const double seconds = 1e-9 * static_cast<double>(time_ns - last_ns_);
     last_ns_ = time_ns;
-    const bool goes_on = bodies_ && seconds > 0.0 && seconds < kPause_s;
-    if (!goes_on) bodies_.reset();
-    if (!bodies_ && obstacle_ && is_clear(tracked, object)) {
-      bodies_ =
-          std::make_unique<HandBodies>(tracked, *context_.flesh, context_.hand_scale, *obstacle_);
-    } else if (bodies_) {
+    if (bodies_ && !(seconds > 0.0 && seconds < kPause_s)) bodies_.reset();
+    if (is_ghost_ && is_clear(tracked, object)) is_ghost_ = false;
+    if (bodies_) {
       bodies_->chase(last_, tracked, std::max(seconds, kFrameMin_s));
       const Pose palm = bodies_->palm();
       const double away = (palm.position - tracked[Joint::palm].position).norm();
-      if (!(away < kGhostDistance_m)) bodies_.reset();
+      is_ghost_ = !(away < kGhostDistance_m);
+      if (is_ghost_) bodies_.reset();
+    } else if (obstacle_ && !is_ghost_) {
+      // A hand that is found inside starts where it is out.
+      WristOffset out(context_.flesh, context_.hand_scale);
+      bodies_ = std::make_unique<HandBodies>(out.update(tracked, object), *context_.flesh,
+                                             context_.hand_scale, *obstacle_);
     }
     last_ = tracked;
     CorrectedHand hand;
@@ -382,6 +386,7 @@ class PhysicsHand {
   SolverContext context_;
   std::unique_ptr<Obstacle> obstacle_;
   std::unique_ptr<HandBodies> bodies_;  ///< none while the hand is drawn as tracked
+  bool is_ghost_ = false;               ///< left behind too far, and not yet clear of the object
   HandPose last_;
   std::int64_t last_ns_ = 0;
 };

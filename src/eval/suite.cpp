@@ -253,8 +253,9 @@ Result<CaseRecording> make_stroke(const SuiteCase& suite_case, const SuiteObject
 }  // namespace
 
 std::string SuiteCase::name() const {
+  const std::string file = std::filesystem::path(object).filename().string();
   const std::string thing =
-      synth.place.empty() || clip ? object : fmt::format("{}/{}", object, synth.place);
+      synth.place.empty() || clip ? file : fmt::format("{}/{}", file, synth.place);
   if (clip) {
     return fmt::format("{} {} pressed {:g} mm", thing, std::filesystem::path(*clip).stem().string(),
                        1e3 * press_m);
