@@ -43,13 +43,14 @@ std::string_view last_of(std::initializer_list<std::string_view> files) {
   return files.begin()[files.size() - 1];
 }
 
-Status compile(const Shader& shader, std::initializer_list<std::string_view> files) {
-  std::string text = "#version 450 core\n";
+Status compile(const Shader& shader, std::initializer_list<std::string_view> files,
+               std::string_view definitions) {
+  std::string text = fmt::format("#version 450 core\n{}", definitions);
   int number = 0;
   for (const std::string_view file : files) {
     const std::string_view source = embedded_file(file);
     NADE_ASSERT(!source.empty());
-    text += fmt::format("#line 1 {}\n{}", ++number, source);
+    text += fmt::format("#line 1 {}\n{}\n", ++number, source);
   }
   const char* const start = text.c_str();
   glShaderSource(shader.get(), 1, &start, nullptr);
@@ -113,8 +114,9 @@ GlVertexArray make_vertex_array() {
 Result<GlProgram> make_program(const ProgramFiles& files) {
   const Shader vertex(GL_VERTEX_SHADER);
   const Shader fragment(GL_FRAGMENT_SHADER);
-  if (Status compiled = compile(vertex, files.vertex); !compiled) return compiled.error();
-  if (Status compiled = compile(fragment, files.fragment); !compiled) return compiled.error();
+  if (Status compiled = compile(vertex, files.vertex, {}); !compiled) return compiled.error();
+  if (Status compiled = compile(fragment, files.fragment, files.definitions); !compiled)
+    return compiled.error();
   GlProgram program(glCreateProgram());
   glAttachShader(program.get(), vertex.get());
   glAttachShader(program.get(), fragment.get());

@@ -60,6 +60,7 @@ using GlProgram = GlName<&detail::free_program>;
 struct ProgramFiles {
   std::initializer_list<std::string_view> vertex;
   std::initializer_list<std::string_view> fragment;
+  std::string_view definitions{};  ///< lines that stand before the fragment files
 };
 /// The error names the file and what the driver said of it.
 [[nodiscard]] Result<GlProgram> make_program(const ProgramFiles& files);

@@ -54,7 +54,7 @@ void take_over_state() {
   glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
-  for (GLuint unit = kColorUnit; unit <= kWideShadowUnit; ++unit) glBindSampler(unit, 0);
+  for (GLuint unit = kColorUnit; unit <= kShadowUnit; ++unit) glBindSampler(unit, 0);
 }
 
 /// So that nothing of ours is in the way of who draws next.
@@ -63,7 +63,7 @@ void leave_state() {
   glDisable(GL_BLEND);
   glUseProgram(0);
   glBindVertexArray(0);
-  for (GLuint unit = kColorUnit; unit <= kWideShadowUnit; ++unit) {
+  for (GLuint unit = kColorUnit; unit <= kShadowUnit; ++unit) {
     glBindTextureUnit(unit, 0);
     glBindSampler(unit, 0);
   }

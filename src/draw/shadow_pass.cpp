@@ -5,11 +5,9 @@ namespace {
 
 constexpr GLint kMapUniform = 1;
 
-GlTexture make_map() { return make_target(GL_DEPTH_COMPONENT32F, kShadowMapSize, kShadowMapSize); }
-
-GlFramebuffer make_pass(const GlTexture& map) {
+GlFramebuffer make_pass(const GlTexture& maps, GLint layer) {
   GlFramebuffer pass = make_framebuffer();
-  glNamedFramebufferTexture(pass.get(), GL_DEPTH_ATTACHMENT, map.get(), 0);
+  glNamedFramebufferTextureLayer(pass.get(), GL_DEPTH_ATTACHMENT, maps.get(), 0, layer);
   glNamedFramebufferDrawBuffer(pass.get(), GL_NONE);
   glNamedFramebufferReadBuffer(pass.get(), GL_NONE);
   return pass;
@@ -23,10 +21,13 @@ Result<ShadowPass> ShadowPass::create() {
   if (!program) return program.error();
   ShadowPass pass;
   pass.program_ = std::move(*program);
-  pass.near_ = make_map();
-  pass.wide_ = make_map();
-  pass.near_pass_ = make_pass(pass.near_);
-  pass.wide_pass_ = make_pass(pass.wide_);
+  pass.maps_ = make_texture(GL_TEXTURE_2D_ARRAY);
+  const GLuint maps = pass.maps_.get();
+  glTextureStorage3D(maps, 1, GL_DEPTH_COMPONENT32F, kShadowMapSize, kShadowMapSize, 2);
+  glTextureParameteri(maps, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTextureParameteri(maps, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  pass.near_pass_ = make_pass(pass.maps_, 0);
+  pass.wide_pass_ = make_pass(pass.maps_, 1);
   return pass;
 }
 
@@ -47,9 +48,6 @@ void ShadowPass::draw(const std::vector<DrawItem>& solids) {
   glDisable(GL_DEPTH_CLAMP);
 }
 
-void ShadowPass::bind() const {
-  glBindTextureUnit(kNearShadowUnit, near_.get());
-  glBindTextureUnit(kWideShadowUnit, wide_.get());
-}
+void ShadowPass::bind() const { glBindTextureUnit(kShadowUnit, maps_.get()); }
 
 }  // namespace nade::draw

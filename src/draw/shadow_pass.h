@@ -13,8 +13,7 @@ enum TextureUnit : GLuint {
   kDepthUnit,
   kNormalUnit,
   kVisibilityUnit,
-  kNearShadowUnit,
-  kWideShadowUnit,
+  kShadowUnit,
 };
 
 /// What stands in the key light: one map about the focus, one about everything.
@@ -28,8 +27,7 @@ class ShadowPass {
   ShadowPass() = default;
 
   GlProgram program_;
-  GlTexture near_;
-  GlTexture wide_;
+  GlTexture maps_;
   GlFramebuffer near_pass_;
   GlFramebuffer wide_pass_;
 };

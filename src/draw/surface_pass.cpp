@@ -1,6 +1,7 @@
 #include "surface_pass.h"
 
 #include <array>
+#include <string>
 
 #include "shadow_pass.h"
 
@@ -13,10 +14,28 @@ constexpr GLint kMaterialUniform = 2;
 constexpr GLint kTexturedUniform = 3;
 constexpr GLint kOpacityUniform = 4;
 
+/// What a surface's shader has to do beyond the plain.
+enum SurfaceFeature : std::size_t { kTextureFeature = 1, kSkinFeature = 2, kCoatFeature = 4 };
+
+std::size_t features_of(const StoredMesh& mesh) {
+  std::size_t features = 0;
+  if (mesh.texture) features |= kTextureFeature;
+  if (mesh.material.translucency > 0.0F) features |= kSkinFeature;
+  if (mesh.material.sheen > 0.0F) features |= kCoatFeature;
+  return features;
+}
+
+std::string definitions_of(std::size_t features) {
+  std::string lines;
+  if (features & kTextureFeature) lines += "#define TEXTURE\n";
+  if (features & kSkinFeature) lines += "#define SKIN\n";
+  if (features & kCoatFeature) lines += "#define COAT\n";
+  return lines;
+}
+
 void set_color(const DrawItem& item) {
   const Color color = item.mesh->material.base_color.cwiseProduct(item.instance->tint);
   glUniform3fv(kBaseColorUniform, 1, color.data());
-  glUniform1i(kTexturedUniform, item.mesh->texture ? 1 : 0);
   glBindTextureUnit(kColorUnit, item.mesh->texture.get());
 }
 
@@ -35,17 +54,23 @@ Result<SurfacePass> SurfacePass::create() {
     into = std::move(*program);
     return ok_status();
   };
-  const std::array<Status, 4> built{
+  const std::array<Status, 3> built{
       build(pass.backdrop_,
             {{"screen.vert.glsl"},
              {"frame.glsl", "srgb.glsl", "studio.glsl", "received.glsl", "backdrop.frag.glsl"}}),
       build(pass.floor_depth_, {{"frame.glsl", "floor.vert.glsl"}, {"depth_only.frag.glsl"}}),
-      build(pass.surface_, {{"frame.glsl", "mesh.vert.glsl"},
-                            {"frame.glsl", "srgb.glsl", "studio.glsl", "received.glsl",
-                             "grain.glsl", "surface.frag.glsl"}}),
       build(pass.ghost_, {{"frame.glsl", "mesh.vert.glsl"},
                           {"frame.glsl", "srgb.glsl", "studio.glsl", "ghost.frag.glsl"}})};
   for (const Status& status : built) {
+    if (!status) return status.error();
+  }
+  for (std::size_t features = 0; features < pass.surfaces_.size(); ++features) {
+    const std::string definitions = definitions_of(features);
+    const Status status =
+        build(pass.surfaces_[features], {{"frame.glsl", "mesh.vert.glsl"},
+                                         {"frame.glsl", "srgb.glsl", "studio.glsl", "received.glsl",
+                                          "grain.glsl", "surface.frag.glsl"},
+                                         definitions});
     if (!status) return status.error();
   }
   pass.nothing_ = make_vertex_array();
@@ -70,8 +95,8 @@ void SurfacePass::draw_solids(const std::vector<DrawItem>& solids, const Scene& 
   }
   // A vertex without colour is white.
   glVertexAttrib3f(kColorAttribute, 1.0F, 1.0F, 1.0F);
-  glUseProgram(surface_.get());
   for (const DrawItem& item : solids) {
+    glUseProgram(surfaces_[features_of(*item.mesh)].get());
     set_color(item);
     set_material(item.mesh->material);
     draw_triangles(item);
@@ -87,6 +112,7 @@ void SurfacePass::draw_ghosts(const std::vector<DrawItem>& ghosts) {
   glEnable(GL_BLEND);
   for (const DrawItem& item : ghosts) {
     set_color(item);
+    glUniform1i(kTexturedUniform, item.mesh->texture ? 1 : 0);
     if (item.instance->shows_behind > 0.0F) {
       glUniform1f(kOpacityUniform, item.instance->opacity * item.instance->shows_behind);
       glDepthMask(GL_FALSE);

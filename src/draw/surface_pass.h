@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "draw_list.h"
@@ -20,7 +21,7 @@ class SurfacePass {
 
   GlProgram backdrop_;
   GlProgram floor_depth_;
-  GlProgram surface_;
+  std::array<GlProgram, 8> surfaces_;  ///< by what a material asks for
   GlProgram ghost_;
   GlVertexArray nothing_;
 };

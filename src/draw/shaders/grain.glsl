@@ -40,6 +40,6 @@ float shown(float size, float pixel) { return 1.0 - smoothstep(0.35, 0.9, pixel 
 // Based on: Cabral, Leedom. Imaging Vector Fields Using Line Integral Convolution. 1993.
 float hair(vec3 at, vec3 lie, float width) {
   float sum = 0.0;
-  for (int i = -2; i <= 2; ++i) sum += noise((at + 1.4 * float(i) * width * lie) / width);
-  return clamp(0.5 + 1.5 * (sum / 5.0 - 0.5), 0.0, 1.0);
+  for (int i = -1; i <= 1; ++i) sum += noise((at + 1.9 * float(i) * width * lie) / width);
+  return clamp(0.5 + 1.3 * (sum / 3.0 - 0.5), 0.0, 1.0);
 }

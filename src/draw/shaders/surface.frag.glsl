@@ -1,3 +1,5 @@
+// With TEXTURE, SKIN and COAT as the material asks: a branch would cost as much as its work where
+// shaders run on the processor.
 in vec3 at_world;
 in vec3 at_normal;
 in vec3 at_color;
@@ -8,7 +10,6 @@ in float at_depth;
 layout(location = 0) uniform mat4 model;
 layout(location = 1) uniform vec3 base_color;
 layout(location = 2) uniform vec4 material;  // roughness, metalness, sheen, translucency
-layout(location = 3) uniform int textured;
 layout(binding = 0) uniform sampler2D color_texture;
 
 out vec4 color;
@@ -101,8 +102,8 @@ void add_coat(inout Surface s, vec3 normal_rest, float pixel, float much) {
   lie -= dot(lie, normal_rest) * normal_rest;
   lie = normalize(lie + 1e-4);
   // The hair does not all lie the same way.
-  vec3 swirl = vec3(noise(at_rest * 28.0), noise(at_rest * 28.0 + 17.0), noise(at_rest * 28.0 + 39.0));
-  lie = normalize(lie + 0.9 * (swirl - 0.5));
+  vec3 wave = sin(at_rest.yzx * 31.0 + 1.6 * sin(at_rest.zxy * 23.0));
+  lie = normalize(lie + 0.22 * wave);
   float tufts = hair(at_rest, lie, 0.0042);
   float strands = 0.5;
   float fine = shown(0.0013, pixel);
@@ -118,14 +119,20 @@ void main() {
   s.normal = normalize(gl_FrontFacing ? at_normal : -at_normal);
   s.to_eye = normalize(frame.eye.xyz - at_world);
   s.albedo = base_color * at_color;
-  if (textured != 0) s.albedo *= texture(color_texture, at_texcoord).rgb;
+#ifdef TEXTURE
+  s.albedo *= texture(color_texture, at_texcoord).rgb;
+#endif
   s.roughness = clamp(material.x, 0.05, 1.0);
   float metalness = material.y;
   float sheen = material.z;
   float translucency = material.w;
   float pixel = max(length(dFdx(at_rest)), length(dFdy(at_rest)));
-  if (translucency > 0.0) add_skin(s, pixel, min(2.0 * translucency, 1.0));
-  if (sheen > 0.0) add_coat(s, normalize(transpose(mat3(model)) * s.normal), pixel, sheen);
+#ifdef SKIN
+  add_skin(s, pixel, min(2.0 * translucency, 1.0));
+#endif
+#ifdef COAT
+  add_coat(s, normalize(transpose(mat3(model)) * s.normal), pixel, sheen);
+#endif
   s.mirror = mix(vec3(translucency > 0.0 ? 0.028 : 0.04), s.albedo, metalness);
   s.albedo *= 1.0 - metalness;
   vec2 light = received_light(at_depth);

@@ -27,17 +27,17 @@ float pattern(ivec2 pixel) {
 }
 
 /// What is open of the surroundings within a reach; the taps start at `first` of the spiral.
-float open_within(float full_reach, float strength, int first, int taps, ivec2 pixel, vec3 position,
-                  vec3 normal, float turn, mat2 turned) {
+float open_within(float full_reach, float strength, int first, int taps, bool asked, ivec2 pixel,
+                  vec3 position, vec3 normal, float turn, mat2 turned) {
   float metre_px = 0.5 * frame.size.y / (frame.unproject.y * -position.z);
   float reach_px = min(full_reach * metre_px, 0.15 * frame.size.y);
-  if (reach_px < 1.5) return 1.0;
   float reach = reach_px / metre_px;
   ivec2 last = ivec2(frame.size.xy) - 1;
   float sum = 0.0;
-  for (int i = 0; i < taps; ++i) {
+  for (int i = asked && reach_px >= 1.5 ? 0 : taps; i < taps; ++i) {
     float share = (float(i) + turn) / float(taps);
-    ivec2 tap = pixel + ivec2(round(share * reach_px * (turned * kSpiral[first + i])));
+    vec2 direction = turned * kSpiral[min(first + i, kFarTaps + kNearTaps - 1)];
+    ivec2 tap = pixel + ivec2(round(share * reach_px * direction));
     tap = clamp(tap, ivec2(0), last);
     float depth = texelFetch(depths, tap, 0).r;
     vec3 to_tap = eye_position(vec2(tap) + 0.5, depth) - position;
@@ -64,15 +64,14 @@ void main() {
   float angle = 6.2831853 * turn;
   mat2 turned = mat2(cos(angle), sin(angle), -sin(angle), cos(angle));
   vec3 world = to_world(position);
-  visibility.x = key_light_at(world, normal, turned);
-  visibility.y = 1.0;
+  visibility.x = key_light_at(world, normal, turned, turn);
   // Far from all solids the floor is open.
-  if (all(greaterThan(world, frame.solids_low.xyz - kFarReach)) &&
-      all(lessThan(world, frame.solids_high.xyz + kFarReach))) {
-    vec3 seen = mat3(frame.view) * normal;
-    float near = open_within(kNearReach, kNearStrength, kFarTaps, kNearTaps, pixel, position, seen,
-                             turn, turned);
-    visibility.y = mix(0.4, 1.0, near) * open_within(kFarReach, kFarStrength, 0, kFarTaps, pixel,
-                                                     position, seen, turn, turned);
-  }
+  bool asked = all(greaterThan(world, frame.solids_low.xyz - kFarReach)) &&
+               all(lessThan(world, frame.solids_high.xyz + kFarReach));
+  vec3 seen = mat3(frame.view) * normal;
+  float near = open_within(kNearReach, kNearStrength, kFarTaps, kNearTaps, asked, pixel, position,
+                           seen, turn, turned);
+  float far = open_within(kFarReach, kFarStrength, 0, kFarTaps, asked, pixel, position, seen, turn,
+                          turned);
+  visibility.y = mix(0.4, 1.0, near) * far;
 }
