@@ -37,9 +37,9 @@ enum class SuiteSize : std::uint8_t {
 struct SuiteOptions {
   SuiteSize size = SuiteSize::normal;
   /// Mesh files that are stroked too, at their place or their top.
-  std::vector<std::string> mesh_files;
+  std::vector<std::string> mesh_files = {};
   /// Recordings of real hands, each pressed onto plane, sphere and dog.
-  std::vector<std::string> clips;
+  std::vector<std::string> clips = {};
 };
 
 /// The cases, the same on every machine.
