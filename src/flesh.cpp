@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <tuple>
 
 namespace nade {
 namespace {
@@ -162,7 +163,9 @@ HandFlesh measure_flesh(const HandMesh& mesh) {
     int part;  ///< -1: of no patch
     int joint;
     int segment;
-    auto operator<=>(const Group&) const = default;
+    bool operator<(const Group& other) const {
+      return std::tie(part, joint, segment) < std::tie(other.part, other.joint, other.segment);
+    }
   };
   std::map<Group, Indices> groups;
   for (const std::size_t vertex : distinct_vertices(mesh)) {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "posed_hand.h"
 #include "settle_solver.h"
+#include "touch_finder.h"
 
 namespace nade {
 namespace {
@@ -20,27 +20,16 @@ constexpr double kSpinStiffness = 40.0;
 const DigitFreedoms kFingerStiffness{4.0, 1.0, 4.0, 6.0};
 const DigitFreedoms kThumbStiffness{1.0, 1.0, 2.0, 2.0};
 
-/// The skin is kept this far out.
-constexpr double kMargin_m = 0.0002;
 /// Skin farther than this from its plane, and than the hand has moved, does not come to touch it
 /// in the frame.
 constexpr double kRowReach_m = 0.005;
-
-// A part that the person pressed in is drawn to the surface until it is this near, from as far as
-// `kPullReach_m`, with a pull that grows to its full strength with the tracked part's depth.
-constexpr double kPullRest_m = 0.001;
-constexpr double kPullReach_m = 0.03;
-constexpr double kPullFade_m = 0.01;
-constexpr double kPullStart_m = 0.001;
-constexpr double kPullFull_m = 0.025;
-constexpr double kPullStiffness = 1.0 / (0.006 * 0.006);
 
 // How fast a correction may change where nothing pushes: so many times the tracked hand's own
 // motion, and a little more, so that a hand at rest is released as well.
 constexpr double kShiftRate = 1.5;
 constexpr double kTurnRate = 0.6;
 constexpr double kBendRate = 0.6;
-constexpr double kFreeRate_m_per_s = 0.027;
+constexpr double kFreeRate_mps = 0.027;
 constexpr double kTurnLever_m = 0.10;
 constexpr double kBendLever_m = 0.07;
 constexpr double kWallStiffness = 1e5;
@@ -65,20 +54,10 @@ constexpr double kSettled_m = 0.0002;
 /// A pad's plane serves for as long as the pad stays within this.
 constexpr double kSamePlane_m = 0.0004;
 constexpr double kSamePlaneNextFrame_m = 0.00002;
-/// A pad that is too far is not looked at again until it could have come so much nearer.
-constexpr double kFarSlack_m = 0.02;
 /// A hand that is found anew is got out of the object if it lies no deeper than this.
 constexpr double kDeepest_m = 0.3;
 constexpr double kLongestTurn_rad = 0.3;
 constexpr double kPalmThickness_m = 0.02;
-/// Skin stretches by no more than this when the hand is posed.
-constexpr double kStretch = 1.3;
-
-double smoothstep(double from, double to, double x) {
-  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
-
 Vec3 along_surface(const Vec3& vector, const Vec3& normal) {
   return vector - normal.dot(vector) * normal;
 }
@@ -124,37 +103,16 @@ Eigen::Matrix3d surface_frame(const Vec3& normal, const Quat& palm) {
   return frame;
 }
 
-/// The plane through the surface point nearest to a pad's middle. The surface's own normal, which
-/// runs smoothly over a mesh's faces; at an edge or a tip the direction to the middle.
-PadPlane plane_at(const SurfacePoint& nearest, const Vec3& middle) {
-  PadPlane plane{middle, nearest.point, nearest.normal};
-  if (!(nearest.signed_distance > 1e-4)) return plane;
-  const Vec3 outward = (middle - nearest.point).normalized();
-  const double smooth = smoothstep(0.6, 0.9, outward.dot(nearest.normal));
-  plane.normal = (smooth * nearest.normal + (1.0 - smooth) * outward).normalized();
-  return plane;
-}
-
-/// A part's patch of skin, drawn and tracked, against the surface near it.
-struct PartTouch {
-  double gap_m = std::numeric_limits<double>::infinity();
-  double depth_m = -std::numeric_limits<double>::infinity();  ///< of the tracked patch
-  const FleshPoint* point = nullptr;
-  Vec3 surface_point = Vec3::Zero();
-  Vec3 normal = Vec3::UnitY();
-};
-
 /// One frame's work.
 class Settling {
  public:
   Settling(const HandPose& tracked, const HandFlesh& flesh, double scale, const Object& object,
            double seconds, const SettleOptions& options, SettleMemory& memory)
-      : flesh_(flesh),
-        object_(object),
+      : object_(object),
         options_(options),
         memory_(memory),
         model_(measure_model(tracked, scale)),
-        tracked_flesh_(pose_flesh(tracked, scale)),
+        search_{flesh, object, pose_flesh(tracked, scale), scale},
         seconds_(std::clamp(seconds, kShortestFrame_s, kLongestFrame_s)) {
     start();
   }
@@ -163,7 +121,8 @@ class Settling {
     const int rounds = fresh_ ? kFirstRounds : kRounds;
     for (int round = 0; round < rounds; ++round) {
       const PosedHand posed = pose_hand(model_, correction_);
-      find_rows(posed, round == 0 ? kSamePlaneNextFrame_m : kSamePlane_m);
+      parts_ =
+          find_touches(search_, posed, round == 0 ? kSamePlaneNextFrame_m : kSamePlane_m, memory_);
       if (memory_.rows.empty() && is_none(correction_)) break;
       const HandFreedoms step = least_cost_step(problem());
       take_step(step);
@@ -176,40 +135,27 @@ class Settling {
  private:
   void start();
   void start_outside();
-  void find_rows(const PosedHand& posed, double same_plane_m);
-  const PadPlane* plane_of(std::size_t pad, const Vec3& middle_world, double reach_m,
-                           double same_plane_m);
-  void add_rows(const FleshPad& pad, const PadPlane& plane_world, const PosedHand& posed);
-  void add_pulls(const PosedHand& posed);
   [[nodiscard]] HandFreedoms step_between(const Correction& from, const Correction& to) const;
   void take_step(const HandFreedoms& step);
-  [[nodiscard]] ContactRow row_of(const PosedHand& posed, const FleshPoint& point,
-                                  const Vec3& normal) const;
   [[nodiscard]] SettleProblem problem() const;
   void find_push(const HandFreedoms& step);
   void remember_surface_motion();
   void rub(const Vec3& stroked);
   SettledHand finish();
 
-  const HandFlesh& flesh_;
   const Object& object_;
   const SettleOptions& options_;
   SettleMemory& memory_;
   HandModel model_;
-  PosedFlesh tracked_flesh_;
+  TouchSearch search_;
   double seconds_;
 
   bool fresh_ = false;
   double motion_m_ = 0.0;  ///< of the tracked hand, in the world or against the object
-  double row_reach_m_ = 0.0;
-  double sink_m_ = 0.0;
-  /// In which the wrist's freedoms are counted: Z along the object's push, X ahead as far as the
-  /// surface allows.
-  Eigen::Matrix3d frame_ = Eigen::Matrix3d::Identity();
   Correction last_;
   Correction correction_;
   Vec3 push_ = Vec3::Zero();
-  std::array<PartTouch, kPartCount> parts_{};
+  PartTouches parts_{};
   bool touches_ = false;
 };
 
@@ -236,12 +182,13 @@ void Settling::start() {
     memory_.height_m = 0.0;
     memory_.slips = false;
   }
-  sink_m_ = options_.softness_m * (1.0 - std::exp(-memory_.height_m / options_.softness_depth_m));
+  search_.sink_m =
+      options_.softness_m * (1.0 - std::exp(-memory_.height_m / options_.softness_depth_m));
   push_ = memory_.push;
   correction_ = memory_.correction;
-  row_reach_m_ = fresh_ ? kDeepest_m : kRowReach_m + motion_m_;
+  search_.row_reach_m = fresh_ ? kDeepest_m : kRowReach_m + motion_m_;
   if (fresh_) start_outside();
-  frame_ = surface_frame(push_, tracked[Joint::palm].rotation);
+  search_.frame = surface_frame(push_, tracked[Joint::palm].rotation);
   take_step(HandFreedoms::Zero());  // into the range of this frame's pose
   last_ = correction_;
 }
@@ -256,86 +203,12 @@ void Settling::start_outside() {
   correction_.palm.shift = nearest->point - palm + model_.scale * kPalmThickness_m * push_;
 }
 
-/// The plane of a pad, if it is near enough to matter: found anew, or as it was.
-const PadPlane* Settling::plane_of(std::size_t pad, const Vec3& middle_world, double reach_m,
-                                   double same_plane_m) {
-  PadMemory& known = memory_.pads[pad];
-  const Placement& placement = object_.placement();
-  const Vec3 middle = placement.to_local(middle_world);
-  const double away_m = placement.scale * (middle - known.middle).norm();
-  if (known.clearance_m - away_m > reach_m) return nullptr;
-  if (known.plane && away_m <= same_plane_m) return &*known.plane;
-  const double scale = placement.scale;
-  const double search_m = reach_m + kFarSlack_m;
-  const std::optional<SurfacePoint> nearest =
-      object_.surface().closest_point(middle, search_m / scale, known.hint);
-  known.middle = middle;
-  known.plane.reset();
-  known.clearance_m = nearest ? scale * nearest->signed_distance : search_m;
-  if (!nearest || known.clearance_m > reach_m) return nullptr;
-  known.plane = plane_at(*nearest, middle);
-  return &*known.plane;
-}
-
-void Settling::find_rows(const PosedHand& posed, double same_plane_m) {
-  memory_.rows.clear();
-  parts_ = {};
-  const Placement& placement = object_.placement();
-  for (std::size_t i = 0; i < flesh_.pads.size(); ++i) {
-    const FleshPad& pad = flesh_.pads[i];
-    const double reach_m = kStretch * model_.scale * pad.radius_m +
-                           std::max(row_reach_m_, pad.part ? kPullReach_m : 0.0);
-    const PadPlane* plane = plane_of(i, posed.flesh.position(pad.middle), reach_m, same_plane_m);
-    if (!plane) continue;
-    const PadPlane world{Vec3::Zero(), placement.to_world(plane->point),
-                         placement.pose.rotation * plane->normal};
-    add_rows(pad, world, posed);
-  }
-  add_pulls(posed);
-}
-
-void Settling::add_rows(const FleshPad& pad, const PadPlane& plane_world, const PosedHand& posed) {
-  const Vec3& normal = plane_world.normal;
-  for (std::size_t k = pad.first; k < pad.first + pad.count; ++k) {
-    const FleshPoint& point = flesh_.skin[k];
-    const double gap_m = normal.dot(posed.flesh.position(point) - plane_world.point);
-    if (pad.part) {
-      PartTouch& part = parts_[index_of(*pad.part)];
-      const Vec3 tracked = tracked_flesh_.position(point);
-      part.depth_m = std::max(part.depth_m, normal.dot(plane_world.point - tracked));
-      if (gap_m < part.gap_m) {
-        part.gap_m = gap_m;
-        part.point = &point;
-        part.surface_point = plane_world.point;
-        part.normal = normal;
-      }
-    }
-    if (gap_m > row_reach_m_ || memory_.rows.size() == kMostContactRows) continue;
-    ContactRow row = row_of(posed, point, normal);
-    row.gap_m = gap_m + sink_m_ - kMargin_m;
-    memory_.rows.push_back(row);
-  }
-}
-
-void Settling::add_pulls(const PosedHand& posed) {
-  for (const PartTouch& part : parts_) {
-    if (!part.point || memory_.rows.size() == kMostContactRows) continue;
-    const double share = smoothstep(kPullStart_m, kPullStart_m + kPullFull_m, part.depth_m) *
-                         smoothstep(-kPullReach_m, kPullFade_m - kPullReach_m, -part.gap_m);
-    if (share == 0.0) continue;
-    ContactRow row = row_of(posed, *part.point, part.normal);
-    row.gap_m = part.gap_m + sink_m_ - kPullRest_m;
-    row.pull = share * kPullStiffness;
-    memory_.rows.push_back(row);
-  }
-}
-
 /// A correction as the step that leads to it from another.
 HandFreedoms Settling::step_between(const Correction& from, const Correction& to) const {
   HandFreedoms step;
-  step.head<3>() = frame_.transpose() * (to.palm.shift - from.palm.shift);
+  step.head<3>() = search_.frame.transpose() * (to.palm.shift - from.palm.shift);
   step.segment<3>(3) =
-      frame_.transpose() * rotation_vector(to.palm.turn * from.palm.turn.conjugate());
+      search_.frame.transpose() * rotation_vector(to.palm.turn * from.palm.turn.conjugate());
   for (std::size_t d = 0; d < kDigitCount; ++d) {
     step.segment<4>(first_freedom(d)) = to.bend[d] - from.bend[d];
   }
@@ -344,22 +217,14 @@ HandFreedoms Settling::step_between(const Correction& from, const Correction& to
 
 void Settling::take_step(const HandFreedoms& step) {
   PalmCorrection& palm = correction_.palm;
-  palm.shift += frame_ * step.head<3>();
-  palm.turn = (turn_about(frame_ * step.segment<3>(3)) * palm.turn).normalized();
+  palm.shift += search_.frame * step.head<3>();
+  palm.turn = (turn_about(search_.frame * step.segment<3>(3)) * palm.turn).normalized();
   for (std::size_t d = 0; d < kDigitCount; ++d) {
     const BendRange& range = model_.ranges[d];
     correction_.bend[d] = (correction_.bend[d] + step.segment<4>(first_freedom(d)))
                               .cwiseMax(range.low)
                               .cwiseMin(range.high);
   }
-}
-
-ContactRow Settling::row_of(const PosedHand& posed, const FleshPoint& point,
-                            const Vec3& normal) const {
-  ContactRow row = motion_along(posed, point, normal);
-  row.wrist.head<3>() = frame_.transpose() * row.wrist.head<3>();
-  row.wrist.tail<3>() = frame_.transpose() * row.wrist.tail<3>();
-  return row;
 }
 
 SettleProblem Settling::problem() const {
@@ -374,7 +239,7 @@ SettleProblem Settling::problem() const {
         digit_at(d) == Digit::thumb ? kThumbStiffness : kFingerStiffness;
   }
   problem.back.from = step_between({}, correction_);
-  problem.back.from.head<3>() -= frame_.transpose() * (memory_.carried + memory_.lag);
+  problem.back.from.head<3>() -= search_.frame.transpose() * (memory_.carried + memory_.lag);
 
   const HandFreedoms changed = step_between(last_, correction_);
   problem.viscous.from = changed;
@@ -402,7 +267,7 @@ SettleProblem Settling::problem() const {
     problem.rate.high = rate;
     return problem;
   }
-  const double slack_m = kFreeRate_m_per_s * seconds_;
+  const double slack_m = kFreeRate_mps * seconds_;
   rate.setConstant((kBendRate * motion_m_ + slack_m) / kBendLever_m);
   rate.head<3>().setConstant(kShiftRate * motion_m_ + slack_m);
   rate.segment<3>(3).setConstant((kTurnRate * motion_m_ + slack_m) / kTurnLever_m);
@@ -419,7 +284,7 @@ void Settling::find_push(const HandFreedoms& step) {
     const double gap_m = gap_after(row, step);
     if (gap_m > 0.0) continue;
     touches_ = true;
-    if (row.pull == 0.0) force -= gap_m * (frame_ * row.wrist.head<3>());
+    if (row.pull == 0.0) force -= gap_m * (search_.frame * row.wrist.head<3>());
   }
   const double strength = force.norm();
   if (!(strength > 1e-12)) {
@@ -489,7 +354,7 @@ SettledHand Settling::finish() {
     const PartTouch& part = parts_[i];
     if (!(part.depth_m > 0.0) || part.gap_m > kPullReach_m) continue;
     PartContact contact;
-    contact.ray_origin = tracked_flesh_.position(*part.point);
+    contact.ray_origin = search_.tracked.position(*part.point);
     contact.ray_direction = contact.skin_direction = contact.normal = part.normal;
     contact.surface_point = part.surface_point;
     contact.target = settled.hand[joint_of(part_at(i))].position;

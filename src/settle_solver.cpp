@@ -8,6 +8,8 @@
 #include <array>
 #include <cmath>
 
+#include "touch_finder.h"
+
 namespace nade {
 namespace {
 

@@ -35,9 +35,6 @@ struct SettleProblem {
   std::span<const ContactRow> rows;
 };
 
-/// Rows beyond this many are left out.
-inline constexpr std::size_t kMostContactRows = 1024;
-
 /// The stiffness of a surface, as the rows see it: 1/m^2 for a cost of 1 a radian squared.
 inline constexpr double kSurfaceStiffness = 4e6;
 

@@ -1,0 +1,125 @@
+#include "touch_finder.h"
+
+#include <algorithm>
+
+namespace nade {
+namespace {
+
+/// The skin is kept this far out.
+constexpr double kMargin_m = 0.0002;
+
+// A part that the person pressed in is drawn to the surface until it is this near, from as far as
+// `kPullReach_m`, with a pull that grows to its full strength with the tracked part's depth.
+constexpr double kPullRest_m = 0.001;
+constexpr double kPullFade_m = 0.01;
+constexpr double kPullStart_m = 0.001;
+constexpr double kPullFull_m = 0.025;
+constexpr double kPullStiffness = 1.0 / (0.006 * 0.006);
+
+/// A pad that is too far is not looked at again until it could have come so much nearer.
+constexpr double kFarSlack_m = 0.02;
+/// Skin stretches by no more than this when the hand is posed.
+constexpr double kStretch = 1.3;
+
+/// The plane through the surface point nearest to a pad's middle. The surface's own normal, which
+/// runs smoothly over a mesh's faces; at an edge or a tip the direction to the middle.
+PadPlane plane_at(const SurfacePoint& nearest, const Vec3& middle) {
+  PadPlane plane{middle, nearest.point, nearest.normal};
+  if (!(nearest.signed_distance > 1e-4)) return plane;
+  const Vec3 outward = (middle - nearest.point).normalized();
+  const double smooth = smoothstep(0.6, 0.9, outward.dot(nearest.normal));
+  plane.normal = (smooth * nearest.normal + (1.0 - smooth) * outward).normalized();
+  return plane;
+}
+
+/// The plane of a pad, if it is near enough to matter: found anew, or as it was.
+const PadPlane* plane_of(const Object& object, const Vec3& middle_world, double reach_m,
+                         double same_plane_m, PadMemory& known) {
+  const Placement& placement = object.placement();
+  const Vec3 middle = placement.to_local(middle_world);
+  const double away_m = placement.scale * (middle - known.middle).norm();
+  if (known.clearance_m - away_m > reach_m) return nullptr;
+  if (known.plane && away_m <= same_plane_m) return &*known.plane;
+  const double scale = placement.scale;
+  const double search_m = reach_m + kFarSlack_m;
+  const std::optional<SurfacePoint> nearest =
+      object.surface().closest_point(middle, search_m / scale, known.hint);
+  known.middle = middle;
+  known.plane.reset();
+  known.clearance_m = nearest ? scale * nearest->signed_distance : search_m;
+  if (!nearest || known.clearance_m > reach_m) return nullptr;
+  known.plane = plane_at(*nearest, middle);
+  return &*known.plane;
+}
+
+ContactRow row_of(const TouchSearch& search, const PosedHand& posed, const FleshPoint& point,
+                  const Vec3& normal) {
+  ContactRow row = motion_along(posed, point, normal);
+  row.wrist.head<3>() = search.frame.transpose() * row.wrist.head<3>();
+  row.wrist.tail<3>() = search.frame.transpose() * row.wrist.tail<3>();
+  return row;
+}
+
+/// Takes in a pad's skin: rows for what is near, and what its part needs to know.
+void add_pad(const TouchSearch& search, const FleshPad& pad, const PadPlane& plane,
+             const PosedHand& posed, PartTouches& parts, std::vector<ContactRow>& rows) {
+  const Placement& placement = search.object.placement();
+  const Vec3 surface_point = placement.to_world(plane.point);
+  const Vec3 normal = placement.pose.rotation * plane.normal;
+  for (std::size_t k = pad.first; k < pad.first + pad.count; ++k) {
+    const FleshPoint& point = search.flesh.skin[k];
+    const double gap_m = normal.dot(posed.flesh.position(point) - surface_point);
+    if (pad.part) {
+      PartTouch& part = parts[index_of(*pad.part)];
+      const Vec3 tracked = search.tracked.position(point);
+      part.depth_m = std::max(part.depth_m, normal.dot(surface_point - tracked));
+      if (gap_m < part.gap_m) {
+        part.gap_m = gap_m;
+        part.point = &point;
+        part.surface_point = surface_point;
+        part.normal = normal;
+      }
+    }
+    if (gap_m > search.row_reach_m || rows.size() == kMostContactRows) continue;
+    ContactRow& row = rows.emplace_back(row_of(search, posed, point, normal));
+    row.gap_m = gap_m + search.sink_m - kMargin_m;
+  }
+}
+
+void add_pulls(const TouchSearch& search, const PosedHand& posed, const PartTouches& parts,
+               std::vector<ContactRow>& rows) {
+  for (const PartTouch& part : parts) {
+    if (!part.point || rows.size() == kMostContactRows) continue;
+    const double share = smoothstep(kPullStart_m, kPullStart_m + kPullFull_m, part.depth_m) *
+                         smoothstep(-kPullReach_m, kPullFade_m - kPullReach_m, -part.gap_m);
+    if (share == 0.0) continue;
+    ContactRow& row = rows.emplace_back(row_of(search, posed, *part.point, part.normal));
+    row.gap_m = part.gap_m + search.sink_m - kPullRest_m;
+    row.pull = share * kPullStiffness;
+  }
+}
+
+}  // namespace
+
+double smoothstep(double from, double to, double x) noexcept {
+  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
+PartTouches find_touches(const TouchSearch& search, const PosedHand& posed, double same_plane_m,
+                         SettleMemory& memory) noexcept {
+  memory.rows.clear();
+  PartTouches parts;
+  for (std::size_t i = 0; i < search.flesh.pads.size(); ++i) {
+    const FleshPad& pad = search.flesh.pads[i];
+    const double reach_m = kStretch * search.scale * pad.radius_m +
+                           std::max(search.row_reach_m, pad.part ? kPullReach_m : 0.0);
+    const PadPlane* plane = plane_of(search.object, posed.flesh.position(pad.middle), reach_m,
+                                     same_plane_m, memory.pads[i]);
+    if (plane != nullptr) add_pad(search, pad, *plane, posed, parts, memory.rows);
+  }
+  add_pulls(search, posed, parts, memory.rows);
+  return parts;
+}
+
+}  // namespace nade

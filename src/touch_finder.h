@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <limits>
+
+#include "nade/settle.h"
+#include "posed_hand.h"
+
+namespace nade {
+
+/// Rows beyond this many are left out.
+inline constexpr std::size_t kMostContactRows = 1024;
+
+/// A part's patch of skin, drawn and tracked, against the surface near it. World frame.
+struct PartTouch {
+  double gap_m = std::numeric_limits<double>::infinity();
+  double depth_m = -std::numeric_limits<double>::infinity();  ///< of the tracked patch
+  const FleshPoint* point = nullptr;                          ///< of the drawn one, the nearest
+  Vec3 surface_point = Vec3::Zero();
+  Vec3 normal = Vec3::UnitY();
+};
+using PartTouches = std::array<PartTouch, kPartCount>;
+
+/// From farther than this a part is not drawn to the surface.
+inline constexpr double kPullReach_m = 0.03;
+
+/// What a frame's rounds look for, and where.
+struct TouchSearch {
+  const HandFlesh& flesh;
+  const Object& object;
+  PosedFlesh tracked;
+  double scale = 1.0;                                   ///< of the tracked hand over the flesh
+  double row_reach_m = 0.0;                             ///< skin nearer than this gets a row
+  double sink_m = 0.0;                                  ///< so far in is still out
+  Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  ///< in which the rows' wrist is counted
+};
+
+/// Fills `memory.rows` for a posed hand. A pad's plane is looked for anew where the pad has moved
+/// by more than `same_plane_m`.
+[[nodiscard]] PartTouches find_touches(const TouchSearch& search, const PosedHand& posed,
+                                       double same_plane_m, SettleMemory& memory) noexcept;
+
+/// 0 below `from`, 1 above `to`, smooth between.
+[[nodiscard]] double smoothstep(double from, double to, double x) noexcept;
+
+}  // namespace nade
