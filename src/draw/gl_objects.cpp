@@ -132,4 +132,11 @@ Result<GlProgram> make_program(const ProgramFiles& files) {
                   last_of(files.fragment), log_of_program(program.get()))};
 }
 
+Status make_program(const ProgramFiles& files, GlProgram& into) {
+  Result<GlProgram> program = make_program(files);
+  if (!program) return program.error();
+  into = std::move(*program);
+  return ok_status();
+}
+
 }  // namespace nade::draw

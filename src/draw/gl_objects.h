@@ -64,5 +64,7 @@ struct ProgramFiles {
 };
 /// The error names the file and what the driver said of it.
 [[nodiscard]] Result<GlProgram> make_program(const ProgramFiles& files);
+/// The same into a program that is there; as it was where that fails.
+[[nodiscard]] Status make_program(const ProgramFiles& files, GlProgram& into);
 
 }  // namespace nade::draw

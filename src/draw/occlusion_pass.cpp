@@ -8,21 +8,16 @@ namespace nade::draw {
 
 Result<OcclusionPass> OcclusionPass::create() {
   OcclusionPass pass;
-  const auto build = [](GlProgram& into, const ProgramFiles& files) -> Status {
-    Result<GlProgram> program = make_program(files);
-    if (!program) return program.error();
-    into = std::move(*program);
-    return ok_status();
-  };
   const std::array<Status, 4> built{
-      build(pass.depths_, {{"frame.glsl", "mesh.vert.glsl"}, {"normals.glsl", "depths.frag.glsl"}}),
-      build(pass.floor_depths_,
-            {{"frame.glsl", "floor.vert.glsl"}, {"normals.glsl", "depths.frag.glsl"}}),
-      build(pass.visibility_,
-            {{"screen.vert.glsl"},
-             {"frame.glsl", "normals.glsl", "shadow.glsl", "visibility.frag.glsl"}}),
-      build(pass.smoothing_,
-            {{"screen.vert.glsl"}, {"frame.glsl", "normals.glsl", "smoothing.frag.glsl"}})};
+      make_program({{"frame.glsl", "mesh.vert.glsl"}, {"normals.glsl", "depths.frag.glsl"}},
+                   pass.depths_),
+      make_program({{"frame.glsl", "floor.vert.glsl"}, {"normals.glsl", "depths.frag.glsl"}},
+                   pass.floor_depths_),
+      make_program({{"screen.vert.glsl"},
+                    {"frame.glsl", "normals.glsl", "shadow.glsl", "visibility.frag.glsl"}},
+                   pass.visibility_),
+      make_program({{"screen.vert.glsl"}, {"frame.glsl", "normals.glsl", "smoothing.frag.glsl"}},
+                   pass.smoothing_)};
   for (const Status& status : built) {
     if (!status) return status.error();
   }

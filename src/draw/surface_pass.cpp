@@ -48,29 +48,26 @@ void set_material(const Material& material) {
 
 Result<SurfacePass> SurfacePass::create() {
   SurfacePass pass;
-  const auto build = [](GlProgram& into, const ProgramFiles& files) -> Status {
-    Result<GlProgram> program = make_program(files);
-    if (!program) return program.error();
-    into = std::move(*program);
-    return ok_status();
-  };
   const std::array<Status, 3> built{
-      build(pass.backdrop_,
-            {{"screen.vert.glsl"},
-             {"frame.glsl", "srgb.glsl", "studio.glsl", "received.glsl", "backdrop.frag.glsl"}}),
-      build(pass.floor_depth_, {{"frame.glsl", "floor.vert.glsl"}, {"depth_only.frag.glsl"}}),
-      build(pass.ghost_, {{"frame.glsl", "mesh.vert.glsl"},
-                          {"frame.glsl", "srgb.glsl", "studio.glsl", "ghost.frag.glsl"}})};
+      make_program(
+          {{"screen.vert.glsl"},
+           {"frame.glsl", "srgb.glsl", "studio.glsl", "received.glsl", "backdrop.frag.glsl"}},
+          pass.backdrop_),
+      make_program({{"frame.glsl", "floor.vert.glsl"}, {"depth_only.frag.glsl"}},
+                   pass.floor_depth_),
+      make_program({{"frame.glsl", "mesh.vert.glsl"},
+                    {"frame.glsl", "srgb.glsl", "studio.glsl", "ghost.frag.glsl"}},
+                   pass.ghost_)};
   for (const Status& status : built) {
     if (!status) return status.error();
   }
   for (std::size_t features = 0; features < pass.surfaces_.size(); ++features) {
     const std::string definitions = definitions_of(features);
-    const Status status =
-        build(pass.surfaces_[features], {{"frame.glsl", "mesh.vert.glsl"},
-                                         {"frame.glsl", "srgb.glsl", "studio.glsl", "received.glsl",
-                                          "grain.glsl", "surface.frag.glsl"},
-                                         definitions});
+    const Status status = make_program({{"frame.glsl", "mesh.vert.glsl"},
+                                        {"frame.glsl", "srgb.glsl", "studio.glsl", "received.glsl",
+                                         "grain.glsl", "surface.frag.glsl"},
+                                        definitions},
+                                       pass.surfaces_[features]);
     if (!status) return status.error();
   }
   pass.nothing_ = make_vertex_array();
