@@ -14,7 +14,7 @@ namespace nade::cli {
 namespace {
 
 /// A ball about the palm with the hand in it, and some air.
-constexpr double kHandRadius = 0.135;
+constexpr double kHandRadius = 0.12;
 /// Of the Gaussian that a followed path is smoothed with.
 constexpr double kSmoothingNs = 0.4e9;
 
@@ -131,7 +131,7 @@ void CameraPlan::average(std::span<const Glimpse> glimpses) {
   still_ = weighted(sum, share, sum, 0.0);
   if (options_.follow != Follow::none) return;
   still_.center = 0.5 * (low + high);
-  radius_m_ += 0.42 * (high - low).norm();
+  radius_m_ += 0.36 * (high - low).norm();
 }
 
 Glimpse CameraPlan::where(std::int64_t time_ns) const {

@@ -164,8 +164,11 @@ class Projector {
     frame.overlays = arguments_->overlays;
     const PictureSize& size = arguments_->size;
     frame.pixel_scale = static_cast<float>(size.height) / 720.0F;
-    return studio_.renderer->picture(studio_.stage.arrange(frame), plan_.at(time_ns, size.aspect()),
-                                     size.width, size.height);
+    const draw::Camera camera = plan_.at(time_ns, size.aspect());
+    draw::Scene scene = studio_.stage.arrange(frame);
+    // Who looks from below wants to see the object, not the floor's underside.
+    scene.floor = camera.pose.position.y() > scene.floor_y;
+    return studio_.renderer->picture(scene, camera, size.width, size.height);
   }
 
  private:
