@@ -8,6 +8,9 @@ endif()
 if(NADE_BUILD_EVAL)
   list(APPEND nade_libraries nade_eval)
 endif()
+if(TARGET nade_study)
+  list(APPEND nade_libraries nade_study)
+endif()
 if(NADE_BUILD_DRAW)
   list(APPEND nade_libraries nade_draw)
 endif()
@@ -18,12 +21,16 @@ install(DIRECTORY include/nade DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   FILES_MATCHING PATTERN "*.h"
   PATTERN "io" EXCLUDE
   PATTERN "eval" EXCLUDE
+  PATTERN "study" EXCLUDE
   PATTERN "draw" EXCLUDE)
 if(NADE_BUILD_IO)
   install(DIRECTORY include/nade/io DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nade)
 endif()
 if(NADE_BUILD_EVAL)
   install(DIRECTORY include/nade/eval DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nade)
+endif()
+if(TARGET nade_study)
+  install(DIRECTORY include/nade/study DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nade)
 endif()
 if(NADE_BUILD_DRAW)
   install(DIRECTORY include/nade/draw DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nade)
