@@ -455,6 +455,52 @@ TEST_F(Recording, WriterRefusesWhatItsReaderWould) {
   EXPECT_EQ(read_whole(path("out.jsonl")).frames.size(), 2u);
 }
 
+TEST_F(Recording, HeadComesBackBitForBit) {
+  Result<RecordingWriter> writer = RecordingWriter::create(path("out.jsonl"), {});
+  ASSERT_TRUE(writer.ok());
+  RecordedFrame frame;
+  frame.head = Pose{{0.1, 1.6, -0.3}, Quat(0.6, 0.0, 0.8, 0.0)};
+  ASSERT_TRUE(writer->write(frame).ok());
+  frame.time_ns = 1;
+  frame.head.reset();
+  ASSERT_TRUE(writer->write(frame).ok());
+  ASSERT_TRUE(writer->finish().ok());
+  const WholeRecording whole = read_whole(path("out.jsonl"));
+  ASSERT_EQ(whole.frames.size(), 2u);
+  ASSERT_TRUE(whole.frames[0].head);
+  EXPECT_EQ(whole.frames[0].head->position, Vec3(0.1, 1.6, -0.3));
+  EXPECT_EQ(whole.frames[0].head->rotation.coeffs(), Quat(0.6, 0.0, 0.8, 0.0).coeffs());
+  EXPECT_EQ(whole.frames[0].unknown_json, "");
+  EXPECT_FALSE(whole.frames[1].head);
+}
+
+TEST_F(Recording, HeadThatIsNoneIsNamed) {
+  const std::string header = R"({"format":"nade-recording","version":1,"source":""})";
+  const std::string file = given("head.jsonl", header + "\n{\"t\":0,\"head\":[0,1,2]}\n");
+  EXPECT_TRUE(contains(read_whole(file).error, "line 2: head: expected 7 numbers"));
+}
+
+TEST_F(Recording, WhatWasFlushedCanBeReadBeforeTheEnd) {
+  std::mt19937 random(7);
+  for (const std::string name : {"now.jsonl", "now.jsonl.gz"}) {
+    Result<RecordingWriter> writer =
+        RecordingWriter::create(path(name), {}, OutputFile::Appears::at_once);
+    ASSERT_TRUE(writer.ok());
+    RecordedFrame frame;
+    frame.hands[1] = random_hand(Handedness::right, random);
+    ASSERT_TRUE(writer->write(frame).ok());
+    ASSERT_TRUE(writer->flush().ok());
+    EXPECT_EQ(read_whole(path(name)).frames.size(), 1u) << name;
+    frame.time_ns = 1;
+    ASSERT_TRUE(writer->write(frame).ok());
+    ASSERT_TRUE(writer->finish().ok());
+    const WholeRecording whole = read_whole(path(name));
+    EXPECT_EQ(whole.frames.size(), 2u) << name;
+    EXPECT_TRUE(whole.warnings.empty()) << name;
+    EXPECT_FALSE(RecordingWriter::create(path(name), {}, OutputFile::Appears::at_once).ok());
+  }
+}
+
 #if !defined(__SANITIZE_ADDRESS__)
 TEST_F(Recording, TenMinutesNeedNoMoreMemoryThanOne) {
   const auto peak_kib = [] {

@@ -88,6 +88,13 @@ Result<OpenedFile> open_beside(const std::string& path, const std::string& targe
   return OpenedFile{descriptor, target, std::move(temporary)};
 }
 
+Result<OpenedFile> open_at_once(const std::string& path) {
+  const int descriptor =
+      ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kNewFileMode);
+  if (descriptor < 0) return unwritable(path, errno);
+  return OpenedFile{descriptor, path};
+}
+
 Result<OpenedFile> open_for_writing(const std::string& path) {
   if (path == "-") {
     const int descriptor = ::dup(STDOUT_FILENO);
@@ -149,9 +156,10 @@ OutputFile::Encoding OutputFile::encoding_of(const std::string& path) {
   return path.ends_with(".gz") ? Encoding::gzip : Encoding::plain;
 }
 
-Result<OutputFile> OutputFile::create(const std::string& path, Encoding encoding) {
+Result<OutputFile> OutputFile::create(const std::string& path, Encoding encoding, Appears appears) {
   if (path.empty()) return Error{ErrorCode::unwritable, "expected the output's name, found none"};
-  Result<OpenedFile> file = open_for_writing(path);
+  Result<OpenedFile> file =
+      appears == Appears::at_once ? open_at_once(path) : open_for_writing(path);
   if (!file) return file.error();
   auto impl = std::make_unique<Impl>(path, std::move(file).value());
   // zlib's "T" writes plain bytes. Level 4 takes less than half the time of the usual 6 and makes
@@ -176,6 +184,19 @@ Status OutputFile::write(std::string_view bytes) {
   errno = 0;
   if (::gzfwrite(bytes.data(), 1, bytes.size(), impl_->stream) == bytes.size()) return ok_status();
   return unwritable(impl_->path, errno != 0 ? errno : EIO);
+}
+
+Status OutputFile::flush() {
+  NADE_ASSERT(impl_ != nullptr && impl_->stream != nullptr);
+  errno = 0;
+  if (::gzflush(impl_->stream, Z_SYNC_FLUSH) != Z_OK) {
+    return unwritable(impl_->path, errno != 0 ? errno : EIO);
+  }
+  // Pipes and devices have nothing to be put on.
+  if (::fdatasync(impl_->file.descriptor) != 0 && errno != EINVAL) {
+    return unwritable(impl_->path, errno);
+  }
+  return ok_status();
 }
 
 Status OutputFile::finish() {

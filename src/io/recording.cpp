@@ -114,7 +114,7 @@ struct RecordingWriter::Impl {
   fmt::memory_buffer buffer;
   std::optional<std::int64_t> last_time_ns;
 
-  Status flush() {
+  Status write_buffer() {
     Status status = file.write({buffer.data(), buffer.size()});
     buffer.clear();
     return status;
@@ -127,14 +127,15 @@ RecordingWriter& RecordingWriter::operator=(RecordingWriter&&) noexcept = defaul
 RecordingWriter::~RecordingWriter() = default;
 
 Result<RecordingWriter> RecordingWriter::create(const std::string& path,
-                                                const RecordingHeader& header) {
-  Result<OutputFile> file = OutputFile::create(path, OutputFile::encoding_of(path));
+                                                const RecordingHeader& header,
+                                                OutputFile::Appears appears) {
+  Result<OutputFile> file = OutputFile::create(path, OutputFile::encoding_of(path), appears);
   if (!file) return file.error();
   auto impl =
       std::make_unique<Impl>(Impl{path == "-" ? "standard output" : path, std::move(file).value(),
                                   fmt::memory_buffer(), std::nullopt});
   io::append_header(header, impl->buffer);
-  const Status status = impl->flush();
+  const Status status = impl->write_buffer();
   if (!status) return status.error();
   return RecordingWriter(std::move(impl));
 }
@@ -153,7 +154,12 @@ Status RecordingWriter::write(const RecordedFrame& frame) {
                  fmt::format("{}: {}", impl_->name, appended.error().message)};
   }
   impl_->last_time_ns = frame.time_ns;
-  return impl_->flush();
+  return impl_->write_buffer();
+}
+
+Status RecordingWriter::flush() {
+  NADE_ASSERT(impl_ != nullptr);
+  return impl_->file.flush();
 }
 
 Status RecordingWriter::finish() {

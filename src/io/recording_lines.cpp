@@ -135,6 +135,20 @@ Rotation make_unit(Quat& rotation) {
   return Rotation::mended;
 }
 
+std::optional<Pose> head_of(const Json& value) {
+  if (!value.is_array() || value.size() != 7) return std::nullopt;
+  std::array<double, 7> n{};
+  for (std::size_t i = 0; i < n.size(); ++i) {
+    if (!value[i].is_number()) return std::nullopt;
+    n[i] = value[i].get<double>();
+  }
+  Pose head{{n[0], n[1], n[2]}, Quat(n[6], n[3], n[4], n[5])};
+  if (!head.position.allFinite() || make_unit(head.rotation) == Rotation::hopeless) {
+    return std::nullopt;
+  }
+  return head;
+}
+
 }  // namespace
 
 std::string RecordingLines::place() const {
@@ -247,6 +261,14 @@ Result<RecordedFrame> RecordingLines::read_frame(Json object) {
     Result<std::optional<RecordedHand>> hand = read_hand(std::move(*given), side);
     if (!hand) return hand.error();
     frame.hands[index_of(side)] = std::move(*hand);
+  }
+  if (const std::optional<Json> head = take(object, "head"); head && !head->is_null()) {
+    frame.head = head_of(*head);
+    if (!frame.head) {
+      return bad_value(fmt::format(
+          "head: expected 7 numbers, a position and a rotation of unit length, found {}",
+          head->is_array() && head->size() != 7 ? std::to_string(head->size()) : head->dump()));
+    }
   }
   frame.unknown_json = unknown_text(object);
   last_time_ns_ = time_ns;

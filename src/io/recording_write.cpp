@@ -52,17 +52,24 @@ void append_unknown(Buffer& out, const Json& object,
   }
 }
 
+/// Position, then rotation, with commas between.
+void append_numbers(Buffer& out, const Pose& pose) {
+  const Vec3& at = pose.position;
+  const Quat& turn = pose.rotation;
+  std::string_view separator;
+  for (const double number : {at.x(), at.y(), at.z(), turn.x(), turn.y(), turn.z(), turn.w()}) {
+    append(out, separator);
+    append(out, number);
+    separator = ",";
+  }
+}
+
 void append_joints(Buffer& out, const HandPose& pose) {
   append(out, "\"joints\":[");
   for (std::size_t i = 0; i < kJointCount; ++i) {
-    const Pose& joint = pose.joints[i];
     append(out, i == 0 ? "[" : ",[");
-    for (const double number :
-         {joint.position.x(), joint.position.y(), joint.position.z(), joint.rotation.x(),
-          joint.rotation.y(), joint.rotation.z(), joint.rotation.w()}) {
-      append(out, number);
-      append(out, ",");
-    }
+    append_numbers(out, pose.joints[i]);
+    append(out, ",");
     append(out, pose.radius[i]);
     append(out, "]");
   }
@@ -123,6 +130,10 @@ void append_hand(Buffer& out, const RecordedHand& hand) {
   append(out, "}");
 }
 
+bool is_finite(const Pose& pose) {
+  return pose.position.allFinite() && pose.rotation.coeffs().allFinite();
+}
+
 bool is_finite(const RecordedHand& hand) {
   for (const auto& contact : hand.contact) {
     if (!contact) continue;
@@ -132,9 +143,7 @@ bool is_finite(const RecordedHand& hand) {
     }
   }
   for (std::size_t i = 0; i < kJointCount; ++i) {
-    const Pose& joint = hand.pose.joints[i];
-    if (!joint.position.allFinite() || !joint.rotation.coeffs().allFinite()) return false;
-    if (!std::isfinite(hand.pose.radius[i])) return false;
+    if (!is_finite(hand.pose.joints[i]) || !std::isfinite(hand.pose.radius[i])) return false;
   }
   return std::isfinite(hand.pose.confidence);
 }
@@ -166,7 +175,17 @@ Status append_frame(const RecordedFrame& frame, Buffer& out) {
     fmt::format_to(fmt::appender(out), ",\"{}\":", name_of(side));
     append_hand(out, *hand);
   }
-  append_unknown(out, parsed_unknown(frame.unknown_json), {"t", "left", "right"});
+  if (frame.head) {
+    if (!is_finite(*frame.head)) {
+      return Error{
+          ErrorCode::bad_value,
+          fmt::format("frame at {} ns: head: expected finite numbers to write", frame.time_ns)};
+    }
+    append(out, ",\"head\":[");
+    append_numbers(out, *frame.head);
+    append(out, "]");
+  }
+  append_unknown(out, parsed_unknown(frame.unknown_json), {"t", "left", "right", "head"});
   append(out, "}\n");
   return ok_status();
 }

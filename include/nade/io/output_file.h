@@ -15,18 +15,24 @@ namespace nade {
 class OutputFile {
  public:
   enum class Encoding { plain, gzip };
+  /// When the file stands under its name: `at_once` leaves, of a program that is killed, what was
+  /// flushed. What stood there before is an error then.
+  enum class Appears { whole, at_once };
 
   /// gzip where the name ends in ".gz", else plain.
   [[nodiscard]] static Encoding encoding_of(const std::string& path);
 
   /// The error names the file and why it cannot be written.
-  [[nodiscard]] static Result<OutputFile> create(const std::string& path, Encoding encoding);
+  [[nodiscard]] static Result<OutputFile> create(const std::string& path, Encoding encoding,
+                                                 Appears appears = Appears::whole);
   OutputFile(OutputFile&&) noexcept;
   OutputFile& operator=(OutputFile&&) noexcept;
   /// Leaves nothing behind where `finish` was not reached.
   ~OutputFile();
 
   [[nodiscard]] Status write(std::string_view bytes);
+  /// Puts what was written so far on disk.
+  [[nodiscard]] Status flush();
   /// Nothing may be written after it, whether it succeeded or not.
   [[nodiscard]] Status finish();
 

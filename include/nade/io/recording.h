@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "nade/hand.h"
+#include "nade/io/output_file.h"
 #include "nade/status.h"
 
 namespace nade {
@@ -33,6 +34,7 @@ struct RecordedHand {
 struct RecordedFrame {
   std::int64_t time_ns = 0;
   std::array<std::optional<RecordedHand>, 2> hands{};  ///< by index_of(Handedness)
+  std::optional<Pose> head;                            ///< midway between the eyes, where known
   std::string unknown_json;
 };
 
@@ -76,16 +78,21 @@ class RecordingReader {
 };
 
 /// Writes our format: gzip where the path ends in ".gz", standard output for "-". The file
-/// appears under its name, whole, in `finish`, and not at all if that is never reached.
+/// appears under its name, whole, in `finish`, and not at all if that is never reached; or, where
+/// asked for, at once.
 class RecordingWriter {
  public:
   [[nodiscard]] static Result<RecordingWriter> create(const std::string& path,
-                                                      const RecordingHeader& header);
+                                                      const RecordingHeader& header,
+                                                      OutputFile::Appears appears = {});
   RecordingWriter(RecordingWriter&&) noexcept;
   RecordingWriter& operator=(RecordingWriter&&) noexcept;
   ~RecordingWriter();
 
   [[nodiscard]] Status write(const RecordedFrame& frame);
+  /// Puts what was written so far on disk, so that of a program that is killed it can be read; of
+  /// use only for a file that appears at once.
+  [[nodiscard]] Status flush();
   [[nodiscard]] Status finish();
 
  private:
