@@ -1,3 +1,4 @@
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,7 +36,7 @@ Result<MeasureReport> measure(const MeasureArguments& arguments, const std::stri
   if (!placed) return placed.error();
   Progress progress("measured", pair->frames());
   const Result<PairMetrics> metrics =
-      pair->measure(placed->object(), [&progress] { progress.step(); });
+      pair->measure(placed->object(), [&progress](std::int64_t) { progress.step(); });
   if (!metrics) return metrics.error();
   for (const std::string& warning : metrics->warnings) warn(warning);
   MeasureReport report;

@@ -61,6 +61,8 @@ struct Pairing {
   std::array<std::size_t, 2> missing{};  ///< hands tracked but not corrected
 };
 
+using BeforeFrame = std::function<void(std::int64_t time_ns)>;
+
 /// A meter for each hand that was drawn.
 using Meters = std::array<std::optional<MetricsMeter>, 2>;
 
@@ -102,15 +104,14 @@ struct RecordingPair::Impl {
   RecordingReader tracked;
   RecordingReader corrected;
 
-  Result<Pairing> measure_all(const Object& object, const std::function<void()>& on_frame,
+  Result<Pairing> measure_all(const Object& object, const BeforeFrame& before_frame,
                               Meters& meters);
   Status check_pairing(const Pairing& pairing, std::vector<std::string>& warnings) const;
 };
 
 /// Pairs the frames by their times.
 Result<Pairing> RecordingPair::Impl::measure_all(const Object& object,
-                                                 const std::function<void()>& on_frame,
-                                                 Meters& meters) {
+                                                 const BeforeFrame& before_frame, Meters& meters) {
   Pairing pairing;
   Result<std::optional<RecordedFrame>> before = tracked.next();
   Result<std::optional<RecordedFrame>> after = corrected.next();
@@ -122,16 +123,14 @@ Result<Pairing> RecordingPair::Impl::measure_all(const Object& object,
         before->has_value() && (!after->has_value() || (*before)->time_ns <= (*after)->time_ns);
     const bool has_after =
         after->has_value() && (!before->has_value() || (*after)->time_ns <= (*before)->time_ns);
+    if (has_before && before_frame) before_frame((*before)->time_ns);
     if (has_before && has_after) {
       measure_pair(**before, **after, object, meters, pairing);
       ++pairing.pairs;
     } else {
       ++(has_before ? pairing.only_tracked : pairing.only_corrected);
     }
-    if (has_before) {
-      before = tracked.next();
-      if (on_frame) on_frame();
-    }
+    if (has_before) before = tracked.next();
     if (has_after) after = corrected.next();
   }
 }
@@ -185,8 +184,7 @@ const RecordingHeader& RecordingPair::corrected_header() const { return impl_->c
 
 std::size_t RecordingPair::frames() const { return impl_->seen.frames; }
 
-Result<PairMetrics> RecordingPair::measure(const Object& object,
-                                           const std::function<void()>& on_frame) {
+Result<PairMetrics> RecordingPair::measure(const Object& object, const BeforeFrame& before_frame) {
   PairMetrics metrics;
   metrics.hand_scale = impl_->seen.scale;
   Meters meters;
@@ -194,7 +192,7 @@ Result<PairMetrics> RecordingPair::measure(const Object& object,
     const auto& mesh = impl_->seen.meshes[side];
     if (mesh) meters[side].emplace(*mesh, MetricsOptions{metrics.hand_scale});
   }
-  const Result<Pairing> pairing = impl_->measure_all(object, on_frame, meters);
+  const Result<Pairing> pairing = impl_->measure_all(object, before_frame, meters);
   if (!pairing) return pairing.error();
   const Status fits = impl_->check_pairing(*pairing, metrics.warnings);
   if (!fits) return fits.error();

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -41,11 +42,11 @@ class RecordingPair {
   /// Frames of the tracked recording.
   [[nodiscard]] std::size_t frames() const;
 
-  /// Pairs the frames by their times and measures them against the object; `on_frame`, where it is
-  /// given, is called after each tracked frame. Once. Recordings of which fewer than half of the
-  /// frames pair are refused.
-  [[nodiscard]] Result<PairMetrics> measure(const Object& object,
-                                            const std::function<void()>& on_frame = {});
+  /// Pairs the frames by their times and measures them against the object. `before_frame`, where it
+  /// is given, is called with the time of each tracked frame before it is measured, so that the
+  /// object may move. Once. Recordings of which fewer than half of the frames pair are refused.
+  [[nodiscard]] Result<PairMetrics> measure(
+      const Object& object, const std::function<void(std::int64_t time_ns)>& before_frame = {});
 
  private:
   struct Impl;
