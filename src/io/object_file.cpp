@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kDefaultRadius = 0.15;
 constexpr std::string_view kSpherePrefix = "sphere:";
+constexpr std::string_view kAlive = ":alive";
 
 Error misuse(std::string message) { return {ErrorCode::out_of_range, std::move(message)}; }
 
@@ -113,19 +114,61 @@ std::vector<std::string> warnings_about(const MeshReport& report, const std::str
   return warnings;
 }
 
-Result<LoadedObject> make_mesh(const std::string& spec, const std::string& path) {
+/// Where the triangles of a mesh come from, and what moves them.
+struct MeshSource {
+  std::string path;
+  std::optional<std::string> animation;  ///< by name; empty: the first
+};
+
+Result<LoadedObject> make_mesh(const std::string& spec, const MeshSource& source) {
+  const std::string& path = source.path;
   Result<MeshFile> file = load_mesh(path);
   if (!file) return file.error();
+  std::optional<AnimatedMesh> animation;
+  if (source.animation) {
+    Result<AnimatedMesh> loaded = AnimatedMesh::load(path, *source.animation);
+    if (!loaded) return loaded.error();
+    if (loaded->vertex_count() != file->soup.vertices.size()) {
+      return Error{ErrorCode::bad_format,
+                   fmt::format("{}: expected {} vertices to move, found {}", path,
+                               file->soup.vertices.size(), loaded->vertex_count())};
+    }
+    animation = std::move(loaded).value();
+    animation->sample(0.0, file->soup.vertices);
+  }
   auto surface = MeshSurface::build(file->soup, path);
   if (!surface) return surface.error();
   LoadedObject object;
   object.spec = spec;
+  object.file = path;
   object.warnings = warnings_about((*surface)->report(), spec);
   object.places = std::move(file->places);
   object.surface = std::move(surface).value();
   if (object.places.empty()) object.places.push_back(top_of(file->soup, *object.surface));
   object.soup = std::move(file->soup);
+  object.animation = std::move(animation);
   return object;
+}
+
+Result<LoadedObject> load_file(const std::string& spec, std::optional<std::string> animation) {
+  const std::string name = spec.substr(0, spec.find(kAlive));
+  if (name != "dog") return make_mesh(spec, {name, std::move(animation)});
+  const Result<std::string> path = find_asset("dog.glb");
+  if (!path) return path.error();
+  return make_mesh(spec, {*path, std::move(animation)});
+}
+
+/// "dog:alive", "horse.glb:alive:Walk".
+Result<LoadedObject> load_alive(const std::string& spec) {
+  const std::size_t colon = spec.find(kAlive);
+  const std::string name = spec.substr(0, colon);
+  const std::string rest = spec.substr(colon + kAlive.size());
+  const bool moves = name == "dog" || name.ends_with(".glb") || name.ends_with(".gltf");
+  if (!moves || (!rest.empty() && !rest.starts_with(':'))) {
+    return misuse(fmt::format(
+        "object '{}': expected dog:alive, or a .glb or .gltf file with ':alive' after it", spec));
+  }
+  return load_file(spec, rest.empty() ? rest : rest.substr(1));
 }
 
 /// `count` finite numbers under `key`; no value where there are none.
@@ -177,6 +220,12 @@ Object LoadedObject::placed(const Placement& placement) const {
   return Object(*surface, composed(placement, base));
 }
 
+void LoadedObject::move_to(double time_s) noexcept {
+  if (!animation) return;
+  animation->sample(time_s, soup->vertices);
+  static_cast<MeshSurface&>(*surface).refit(soup->vertices);
+}
+
 Result<MeshPlace> LoadedObject::place(std::string_view name) const {
   const std::string_view wanted = name.empty() ? "back" : name;
   for (const MeshPlace& place : places) {
@@ -192,16 +241,13 @@ Result<LoadedObject> load_object(const std::string& spec) {
   if (spec == "plane") return make_plane(spec);
   if (spec == "sphere") return make_sphere(spec, kDefaultRadius);
   if (spec.starts_with(kSpherePrefix)) return make_sized_sphere(spec);
-  if (spec == "dog") {
-    const Result<std::string> path = find_asset("dog.glb");
-    if (!path) return path.error();
-    return make_mesh(spec, *path);
-  }
+  if (spec == "dog") return load_file(spec, std::nullopt);
+  if (spec.find(kAlive) != std::string::npos) return load_alive(spec);
   if (spec.find_first_of("./") == std::string::npos) {
     return misuse(fmt::format(
-        "object '{}': expected plane, sphere, sphere:RADIUS, dog or a mesh file", spec));
+        "object '{}': expected plane, sphere, sphere:RADIUS, dog, dog:alive or a mesh file", spec));
   }
-  return make_mesh(spec, spec);
+  return make_mesh(spec, {spec, std::nullopt});
 }
 
 std::string with_placing(const std::string& json_object, const ObjectPlacing& placing) {
@@ -213,6 +259,8 @@ std::string with_placing(const std::string& json_object, const ObjectPlacing& pl
   header["at"] = {pose.position.x(), pose.position.y(), pose.position.z()};
   header["turn"] = {pose.rotation.x(), pose.rotation.y(), pose.rotation.z(), pose.rotation.w()};
   header["scale"] = placing.placement.scale;
+  header.erase("animation_start");
+  if (placing.animation_start_ns) header["animation_start"] = *placing.animation_start_ns;
   return header.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
@@ -224,7 +272,15 @@ Result<std::optional<ObjectPlacing>> placing_from(const std::string& json_object
   if (!header["object"].is_string()) return bad_key(name, "object", "a text");
   const Result<Placement> placement = placement_from(header, name);
   if (!placement) return placement.error();
-  return std::optional(ObjectPlacing{header["object"].get<std::string>(), *placement});
+  ObjectPlacing placing{header["object"].get<std::string>(), *placement, {}};
+  if (header.contains("animation_start")) {
+    const auto& start = header["animation_start"];
+    if (!start.is_number_integer()) {
+      return bad_key(name, "animation_start", "a whole number of nanoseconds");
+    }
+    placing.animation_start_ns = start.get<std::int64_t>();
+  }
+  return std::optional(std::move(placing));
 }
 
 }  // namespace nade

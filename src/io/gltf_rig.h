@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gltf_accessor.h"
+#include "nade/geometry.h"
+
+namespace nade::gltf {
+
+/// The upper three rows of a transform.
+using Matrix34f = Eigen::Matrix<float, 3, 4>;
+
+/// A node's own transform, as the animation has it.
+struct Node {
+  Vec3 translation = Vec3::Zero();
+  Quat rotation = Quat::Identity();
+  Vec3 scale = Vec3::Ones();
+  std::optional<Eigen::Matrix4d> fixed;  ///< given as a matrix, which cannot be animated
+  std::optional<std::size_t> parent;
+  std::vector<double> weights;  ///< of its mesh's morph targets
+
+  [[nodiscard]] Eigen::Matrix4d local() const {
+    if (fixed) return *fixed;
+    Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+    matrix.topLeftCorner<3, 3>() = rotation.toRotationMatrix() * scale.asDiagonal();
+    matrix.topRightCorner<3, 1>() = translation;
+    return matrix;
+  }
+};
+
+struct Skin {
+  std::vector<std::size_t> joints;  ///< nodes
+  std::vector<Eigen::Matrix4d> inverse_binds;
+  std::vector<Matrix34f> bones;  ///< room: the joints' transforms from the bind pose
+};
+
+/// Bones of a vertex, the weights a sum of 1.
+struct Carriers {
+  std::array<std::uint16_t, 4> bone{};
+  std::array<float, 4> weight{};
+};
+
+/// One primitive where one node has it.
+struct Piece {
+  std::size_t node = 0;
+  std::optional<std::size_t> skin;
+  std::vector<Eigen::Vector3f> positions;
+  std::vector<std::vector<Eigen::Vector3f>> targets;  ///< what each morph target adds
+  std::vector<Carriers> carriers;                     ///< of a skin
+};
+
+/// What of a file takes part in its motion.
+struct Rig {
+  std::vector<Node> nodes;
+  std::vector<std::size_t> order;  ///< of the nodes, parents first
+  std::vector<Skin> skins;
+  std::vector<Piece> pieces;  ///< in the order in which `load_mesh` gives their vertices
+};
+
+/// Reads a model's nodes, skins and meshes with their morph targets.
+[[nodiscard]] Result<Rig> read_rig(const tinygltf::Model& model, const std::string& path);
+
+}  // namespace nade::gltf
