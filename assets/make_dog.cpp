@@ -8,6 +8,7 @@
 
 #include "make_dog_body.h"
 #include "make_dog_gltf.h"
+#include "make_dog_life.h"
 #include "make_dog_mesh.h"
 
 namespace {
@@ -29,7 +30,7 @@ std::optional<std::string> find_fault(const dog::Mesh& mesh, const dog::Quality&
            std::to_string(quality.smallest_angle_p01_deg);
   if (quality.worst_alignment < 0.5)
     return "a triangle is turned more than 60 degrees off the surface it stands for";
-  return std::nullopt;
+  return dog::life_defect(mesh);
 }
 
 int make(const std::string& path) {
