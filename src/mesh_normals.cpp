@@ -45,8 +45,22 @@ std::uint32_t corner_at(const WeldedMesh& mesh, std::uint32_t triangle, std::uin
   return 3 * triangle + static_cast<std::uint32_t>(k);
 }
 
-double angle_between(const Vector3d& a, const Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
+/// Of two edges with this cross product's length and this dot product, to 1e-7 radians: an odd
+/// polynomial in the smaller over the larger (Abramowitz, Stegun 1964, 4.4.49), a fraction of what
+/// the library's arc tangent costs.
+double angle_of(double cross, double dot) {
+  const double along = std::abs(dot);
+  const double larger = std::max(cross, along);
+  if (!(larger > 0.0)) return 0.0;
+  const double x = std::min(cross, along) / larger;
+  const double s = x * x;
+  double sum = 0.0028662257;
+  for (const double c : {-0.0161657367, 0.0429096138, -0.0752896400, 0.1065626393, -0.1420889944,
+                         0.1999355085, -0.3333314528, 1.0}) {
+    sum = sum * s + c;
+  }
+  const double acute = cross > along ? 0.5 * M_PI - sum * x : sum * x;
+  return dot < 0.0 ? M_PI - acute : acute;
 }
 
 }  // namespace
@@ -88,6 +102,7 @@ void MeshNormals::build(const WeldedMesh& mesh, const MeshTopology& topology) {
         root == corner ? sets_found++ : shading_index_[root / 3][root % 3];
   }
   shading_.resize(sets_found);
+  packed_.resize(sets_found);
   vertex_pseudonormals_.resize(mesh.vertices.size());
 }
 
@@ -99,9 +114,11 @@ void MeshNormals::update(const WeldedMesh& mesh) noexcept {
     const Vector3d a = mesh.vertices[corners[0]].cast<double>();
     const Vector3d b = mesh.vertices[corners[1]].cast<double>();
     const Vector3d c = mesh.vertices[corners[2]].cast<double>();
-    const Vector3d normal = (b - a).cross(c - a).stableNormalized();
-    const double at_a = angle_between(b - a, c - a);
-    const double at_b = angle_between(c - b, a - b);
+    const Vector3d area = (b - a).cross(c - a);
+    const double length = area.norm();
+    const Vector3d normal = length > 1e-100 ? Vector3d(area / length) : area.stableNormalized();
+    const double at_a = angle_of(length, (b - a).dot(c - a));
+    const double at_b = angle_of(length, (c - b).dot(a - b));
     const std::array<double, 3> angles{at_a, at_b, std::max(0.0, M_PI - at_a - at_b)};
     for (std::size_t k = 0; k < 3; ++k) {
       const Vector3f weighted = (angles[k] * normal).cast<float>();
@@ -110,9 +127,9 @@ void MeshNormals::update(const WeldedMesh& mesh) noexcept {
     }
   }
   // Where the faces around cancel out any normal is as good.
-  for (Vector3f& normal : shading_) {
-    normal.stableNormalize();
-    if (!(normal.squaredNorm() > 0.5F)) normal = Vector3f::UnitY();
+  for (std::size_t i = 0; i < shading_.size(); ++i) {
+    const Vector3f normal = shading_[i].stableNormalized();
+    packed_[i] = to_octahedral(normal.squaredNorm() > 0.5F ? normal : Vector3f::UnitY());
   }
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "mesh_topology.h"
+#include "octahedral.h"
 
 namespace nade::detail {
 
@@ -24,15 +25,15 @@ class MeshNormals {
   /// Whether the vertex ends a border edge.
   [[nodiscard]] bool on_border(std::uint32_t vertex) const { return on_border_[vertex] != 0; }
 
-  /// Unit.
-  [[nodiscard]] std::span<const Eigen::Vector3f> shading() const { return shading_; }
+  [[nodiscard]] std::span<const Octahedral> shading() const { return packed_; }
   /// For each triangle's corners, which of `shading`.
   [[nodiscard]] std::span<const Corners> shading_of() const { return shading_index_; }
 
  private:
   std::vector<Eigen::Vector3f> vertex_pseudonormals_;
   std::vector<std::uint8_t> on_border_;
-  std::vector<Eigen::Vector3f> shading_;
+  std::vector<Eigen::Vector3f> shading_;  ///< room: sums of what is about each
+  std::vector<Octahedral> packed_;
   std::vector<Corners> shading_index_;
 };
 

@@ -122,14 +122,14 @@ void TriangleTree::set_triangles(std::span<const Vector3f> vertices,
   }
 }
 
-void TriangleTree::set_shading(std::span<const Vector3f> normals,
+void TriangleTree::set_shading(std::span<const Octahedral> normals,
                                std::span<const Corners> normal_of) noexcept {
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
     TriangleBlock& block = blocks_[i];
     for (std::uint32_t lane = 0; lane < kTreeWidth; ++lane) {
       const std::uint32_t triangle = std::min(block_begin_[i] + lane, block_begin_[i + 1] - 1);
       for (std::size_t corner = 0; corner < 3; ++corner) {
-        const Octahedral normal = to_octahedral(normals[normal_of[triangle][corner]]);
+        const Octahedral normal = normals[normal_of[triangle][corner]];
         block.normal[corner][0][lane] = normal.u;
         block.normal[corner][1][lane] = normal.v;
       }

@@ -33,8 +33,8 @@ class TriangleTree {
   void set_triangles(std::span<const Eigen::Vector3f> vertices,
                      std::span<const Corners> triangles) noexcept;
 
-  /// Shading normals, and which of them each corner has; none zero. Does not allocate.
-  void set_shading(std::span<const Eigen::Vector3f> normals,
+  /// Shading normals, and which of them each corner has. Does not allocate.
+  void set_shading(std::span<const Octahedral> normals,
                    std::span<const Corners> normal_of) noexcept;
 
   /// Makes `winding` ready: call once, then again after each `set_triangles`. Allocates the
