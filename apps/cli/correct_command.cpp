@@ -94,9 +94,12 @@ void correct_hand(RecordedHand& hand, HandCorrector& corrector, const Object& ob
 }
 
 Result<Summary> correct_all(const CorrectArguments& arguments, const std::string& path,
-                            const PlacedObject& placed) {
+                            PlacedObject& placed) {
   Result<RecordingReader> reader = RecordingReader::open(path);
   if (!reader) return reader.error();
+  Result<std::optional<RecordedFrame>> frame = reader->next();
+  if (!frame) return frame.error();
+  if (*frame) placed.start_animation((*frame)->time_ns);
   Result<RecordingWriter> writer = RecordingWriter::create(
       arguments.output, corrected_header(reader->header(), arguments, placed));
   if (!writer) return writer.error();
@@ -105,10 +108,8 @@ Result<Summary> correct_all(const CorrectArguments& arguments, const std::string
   std::array<HandCorrector, 2> correctors{HandCorrector(options), HandCorrector(options)};
   Summary summary;
   Progress progress("corrected", 0);
-  while (true) {
-    Result<std::optional<RecordedFrame>> frame = reader->next();
-    if (!frame) return frame.error();
-    if (!*frame) break;
+  while (*frame) {
+    placed.move_to((*frame)->time_ns);
     for (std::size_t side = 0; side < correctors.size(); ++side) {
       auto& hand = (*frame)->hands[side];
       if (hand) correct_hand(*hand, correctors[side], object, (*frame)->time_ns, summary);
@@ -117,6 +118,8 @@ Result<Summary> correct_all(const CorrectArguments& arguments, const std::string
     if (!written) return written.error();
     ++summary.frames;
     progress.step();
+    frame = reader->next();
+    if (!frame) return frame.error();
   }
   for (const std::string& warning : reader->warnings()) warn(warning);
   const Status finished = writer->finish();

@@ -21,7 +21,8 @@ void add_object_options(CLI::App& command, ObjectOptions& options) {
   command
       .add_option(
           "--object", options.object,
-          "plane, sphere, sphere:RADIUS, dog, or a mesh file (.glb .gltf .obj .stl .ply .off)")
+          "plane, sphere, sphere:RADIUS, dog, or a mesh file (.glb .gltf .obj .stl .ply .off); "
+          "dog:alive and FILE.glb:alive move as their animation says, FILE.glb:alive:NAME as that")
       ->type_name("OBJECT");
   command
       .add_option_function<std::string>(
@@ -74,7 +75,18 @@ Result<PlacedObject> load_placed(const ObjectOptions& options,
   if (options.at) placement.pose.position = *options.at;
   if (options.turn) placement.pose.rotation = *options.turn;
   if (options.scale) placement.scale = *options.scale;
-  return PlacedObject{std::move(loaded).value(), placement};
+  PlacedObject placed{std::move(loaded).value(), placement};
+  if (same) placed.animation_start_ns = recorded->animation_start_ns;
+  return placed;
+}
+
+void PlacedObject::start_animation(std::int64_t first_ns) {
+  if (loaded.animation && !animation_start_ns) animation_start_ns = first_ns;
+}
+
+void PlacedObject::move_to(std::int64_t time_ns) {
+  start_animation(time_ns);
+  if (animation_start_ns) loaded.move_to(1e-9 * static_cast<double>(time_ns - *animation_start_ns));
 }
 
 }  // namespace nade::cli

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -24,9 +25,19 @@ void add_object_options(CLI::App& command, ObjectOptions& options);
 struct PlacedObject {
   LoadedObject loaded;
   Placement placement;
+  /// Where it moves by itself: the recording's time at its animation's start.
+  std::optional<std::int64_t> animation_start_ns{};
 
   [[nodiscard]] Object object() const { return loaded.placed(placement); }
-  [[nodiscard]] ObjectPlacing placing() const { return {loaded.spec, placement}; }
+  [[nodiscard]] ObjectPlacing placing() const {
+    return {loaded.spec, placement, animation_start_ns};
+  }
+
+  /// Its animation starts with the recording, where nothing else is known.
+  void start_animation(std::int64_t first_ns);
+  /// Moves it on to a time of the recording, where it moves by itself. The animation starts at
+  /// the first such time if not told otherwise.
+  void move_to(std::int64_t time_ns);
 };
 
 /// Loads the object that was asked for. What the command line leaves open is taken from

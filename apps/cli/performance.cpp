@@ -170,17 +170,17 @@ Result<std::optional<std::int64_t>> time_of_frame(const std::string& path, std::
   }
 }
 
-MomentReader::MomentReader(const Performance& performance, const Object& object,
+MomentReader::MomentReader(const Performance& performance, PlacedObject& placed,
                            RecordingReader tracked)
     : performance_(performance),
-      object_(object),
+      placed_(&placed),
       tracked_(std::move(tracked)),
       correctors_{HandCorrector(performance.method), HandCorrector(performance.method)} {}
 
-Result<MomentReader> MomentReader::open(const Performance& performance, const Object& object) {
+Result<MomentReader> MomentReader::open(const Performance& performance, PlacedObject& placed) {
   Result<RecordingReader> tracked = RecordingReader::open(performance.recording);
   if (!tracked) return tracked.error();
-  MomentReader reader(performance, object, std::move(tracked).value());
+  MomentReader reader(performance, placed, std::move(tracked).value());
   if (performance.corrected) {
     Result<RecordingReader> corrected = RecordingReader::open(*performance.corrected);
     if (!corrected) return corrected.error();
@@ -211,7 +211,10 @@ Result<std::optional<Moment>> MomentReader::next() {
   if (corrected_) {
     const Status found = find_partner(moment.time_ns);
     if (!found) return found.error();
+  } else {
+    placed_->move_to(moment.time_ns);
   }
+  const Object object = placed_->object();
   for (std::size_t side = 0; side < moment.hands.size(); ++side) {
     const auto& hand = (*frame)->hands[side];
     if (!hand) continue;
@@ -223,8 +226,7 @@ Result<std::optional<Moment>> MomentReader::next() {
         staged.contacts = contacts_of(*corrected, hand->pose);
       }
     } else if (performance_.method.method != Method::none) {
-      const CorrectedHand& corrected =
-          correctors_[side].update(hand->pose, object_, moment.time_ns);
+      const CorrectedHand& corrected = correctors_[side].update(hand->pose, object, moment.time_ns);
       staged.corrected = corrected.pose;
       staged.contacts = corrected.contacts;
     }

@@ -61,17 +61,18 @@ struct Performance {
 /// Plays a performance, one frame after another.
 class MomentReader {
  public:
+  /// `placed` must outlive the reader, which moves it on to the time of each frame.
   [[nodiscard]] static Result<MomentReader> open(const Performance& performance,
-                                                 const Object& object);
+                                                 PlacedObject& placed);
   /// No value at the end.
   [[nodiscard]] Result<std::optional<Moment>> next();
 
  private:
-  MomentReader(const Performance& performance, const Object& object, RecordingReader tracked);
+  MomentReader(const Performance& performance, PlacedObject& placed, RecordingReader tracked);
   [[nodiscard]] Status find_partner(std::int64_t time_ns);
 
   Performance performance_;
-  Object object_;
+  PlacedObject* placed_;
   RecordingReader tracked_;
   std::optional<RecordingReader> corrected_;
   std::optional<RecordedFrame> partner_;  ///< the corrected frame at or after the last time

@@ -134,9 +134,9 @@ Result<Stretch> moment_of(const RenderArguments& arguments, const Show& show) {
 class Projector {
  public:
   [[nodiscard]] static Result<std::unique_ptr<Projector>> create(const RenderArguments& arguments,
-                                                                 const Show& show,
+                                                                 Show& show,
                                                                  const Stretch& stretch) {
-    Result<MomentReader> reader = MomentReader::open(show.performance, show.placed.object());
+    Result<MomentReader> reader = MomentReader::open(show.performance, show.placed);
     if (!reader) return reader.error();
     Result<Studio> studio = open_studio(show.hands);
     if (!studio) return studio.error();
@@ -149,15 +149,16 @@ class Projector {
       }
     }
     if (glimpses.empty()) glimpses = show.survey.glimpses;
-    return std::unique_ptr<Projector>(new Projector(arguments, std::move(studio).value(),
-                                                    std::move(reader).value(),
-                                                    CameraPlan(arguments.camera, glimpses)));
+    return std::unique_ptr<Projector>(
+        new Projector(arguments, show.placed, std::move(studio).value(), std::move(reader).value(),
+                      CameraPlan(arguments.camera, glimpses)));
   }
 
   /// Times must not decrease.
   [[nodiscard]] Result<draw::Image> picture(std::int64_t time_ns) {
     Result<Moment> moment = moments_.at(time_ns);
     if (!moment) return moment.error();
+    placed_->move_to(time_ns);
     draw::StageFrame frame;
     frame.hands = moment->hands;
     frame.shown = arguments_->shown.value_or(draw::Shown::corrected);
@@ -167,18 +168,21 @@ class Projector {
     const draw::Camera camera = plan_.at(time_ns, size.aspect());
     draw::Scene scene = studio_.stage.arrange(frame);
     // Who looks from below wants to see the object, not the floor's underside.
-    scene.floor = camera.pose.position.y() > scene.floor_y;
+    scene.floor = scene.floor && camera.pose.position.y() > scene.floor_y;
     return studio_.renderer->picture(scene, camera, size.width, size.height);
   }
 
  private:
-  Projector(const RenderArguments& arguments, Studio studio, MomentReader reader, CameraPlan plan)
+  Projector(const RenderArguments& arguments, PlacedObject& placed, Studio studio,
+            MomentReader reader, CameraPlan plan)
       : arguments_(&arguments),
+        placed_(&placed),
         studio_(std::move(studio)),
         moments_(std::move(reader)),
         plan_(std::move(plan)) {}
 
   const RenderArguments* arguments_;
+  PlacedObject* placed_;
   Studio studio_;
   MomentSampler moments_;
   CameraPlan plan_;
@@ -232,7 +236,7 @@ Status render_picture(const RenderArguments& arguments, Projector& projector,
 Status run_on(const RenderArguments& arguments) {
   const Result<OutputKind> kind = kind_of(arguments);
   if (!kind) return kind.error();
-  const Result<Show> show = prepare(arguments.show);
+  Result<Show> show = prepare(arguments.show);
   if (!show) return show.error();
   if (!show->has_tracked && arguments.shown && *arguments.shown != draw::Shown::corrected) {
     return misuse(

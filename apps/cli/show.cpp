@@ -95,6 +95,7 @@ Result<Show> prepare(const ShowArguments& arguments) {
     }
     placed->placement = *pressed;
   }
+  placed->start_animation(seen->first_ns);
   Performance performance{arguments.recording, arguments.corrected, options_of(arguments.method),
                           seen->scale};
   use_own_hands(arguments.hands, *hands, performance.method);
