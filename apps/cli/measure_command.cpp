@@ -32,11 +32,14 @@ Result<MeasureReport> measure(const MeasureArguments& arguments, const std::stri
   const RecordingHeader& header = pair->corrected_header();
   const auto recorded = placing_from(header.unknown_json, arguments.corrected);
   if (!recorded) return recorded.error();
-  const Result<PlacedObject> placed = load_placed(arguments.object, *recorded);
+  Result<PlacedObject> placed = load_placed(arguments.object, *recorded);
   if (!placed) return placed.error();
   Progress progress("measured", pair->frames());
   const Result<PairMetrics> metrics =
-      pair->measure(placed->object(), [&progress](std::int64_t) { progress.step(); });
+      pair->measure(placed->object(), [&progress, &placed](std::int64_t time_ns) {
+        placed->move_to(time_ns);
+        progress.step();
+      });
   if (!metrics) return metrics.error();
   for (const std::string& warning : metrics->warnings) warn(warning);
   MeasureReport report;
