@@ -20,5 +20,6 @@ void add_measure(CLI::App& app, Action& action);
 void add_render(CLI::App& app, Action& action);
 void add_synth(CLI::App& app, Action& action);
 void add_view(CLI::App& app, Action& action);
+void add_xr(CLI::App& app, Action& action);
 
 }  // namespace nade::cli

@@ -34,6 +34,9 @@ int run(int argc, char** argv) {
 #ifdef NADE_CLI_VIEWER
   nade::cli::add_view(app, action);
 #endif
+#ifdef NADE_CLI_XR
+  nade::cli::add_xr(app, action);
+#endif
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

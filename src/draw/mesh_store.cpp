@@ -58,6 +58,13 @@ GlBuffer feed(StoredMesh& mesh, Attribute attribute, std::span<const Element> el
   return buffer;
 }
 
+void fill_color_texture(GLuint name, const Image& image) {
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  glTextureSubImage2D(name, 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                      image.rgba.data());
+  glGenerateTextureMipmap(name);
+}
+
 GlTexture make_color_texture(const Image& image) {
   NADE_ASSERT(image.width > 0 && image.height > 0);
   NADE_ASSERT(image.rgba.size() ==
@@ -67,10 +74,7 @@ GlTexture make_color_texture(const Image& image) {
   const int levels = 1 + static_cast<int>(std::floor(std::log2(longest)));
   const GLuint name = texture.get();
   glTextureStorage2D(name, levels, GL_SRGB8_ALPHA8, image.width, image.height);
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  glTextureSubImage2D(name, 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE,
-                      image.rgba.data());
-  glGenerateTextureMipmap(name);
+  fill_color_texture(name, image);
   glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   if (epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic") ||
@@ -163,6 +167,18 @@ void MeshStore::set_colors(MeshId id, std::span<const Color> colors) {
 
 void MeshStore::set_material(MeshId mesh, const Material& material) {
   at(mesh).material = material;
+}
+
+void MeshStore::set_texture(MeshId id, const Image& image) {
+  const StoredMesh& mesh = at(id);
+  NADE_ASSERT(static_cast<bool>(mesh.texture));
+  GLint width = 0;
+  GLint height = 0;
+  glGetTextureLevelParameteriv(mesh.texture.get(), 0, GL_TEXTURE_WIDTH, &width);
+  glGetTextureLevelParameteriv(mesh.texture.get(), 0, GL_TEXTURE_HEIGHT, &height);
+  NADE_ASSERT(image.width == width && image.height == height);
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  fill_color_texture(mesh.texture.get(), image);
 }
 
 const StoredMesh& MeshStore::at(MeshId mesh) const {

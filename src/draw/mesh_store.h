@@ -48,6 +48,7 @@ class MeshStore {
                  std::span<const Eigen::Vector3f> normals);
   void set_colors(MeshId mesh, std::span<const Color> colors);
   void set_material(MeshId mesh, const Material& material);
+  void set_texture(MeshId mesh, const Image& image);
 
   /// One that was added and not removed.
   [[nodiscard]] const StoredMesh& at(MeshId mesh) const;

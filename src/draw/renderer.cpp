@@ -155,6 +155,10 @@ void Renderer::set_material(MeshId mesh, const Material& material) {
   impl_->meshes.set_material(mesh, material);
 }
 
+void Renderer::set_texture(MeshId mesh, const Image& image) {
+  impl_->meshes.set_texture(mesh, image);
+}
+
 void Renderer::draw(const Scene& scene, const Camera& camera, const Target& target) {
   NADE_ASSERT(target.width > 0 && target.height > 0);
   impl_->draw(scene, camera, target.width, target.height);

@@ -49,6 +49,8 @@ class Renderer {
   /// New colours at the vertices; empty takes them away.
   void set_colors(MeshId mesh, std::span<const Color> colors);
   void set_material(MeshId mesh, const Material& material);
+  /// Another picture on a mesh that was added with one of the same size.
+  void set_texture(MeshId mesh, const Image& image);
 
   /// Draws into a framebuffer, 4 samples a pixel.
   void draw(const Scene& scene, const Camera& camera, const Target& target);
