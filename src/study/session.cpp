@@ -93,6 +93,7 @@ void StudySession::repeat(std::int64_t now_ns) {
     if (!last_done_) return;
     trial_ = *last_done_;
     progress_.trials[trial_] = Fate::open;
+    if (done_since_rest_ > 0) --done_since_rest_;
   }
   break_off(now_ns_);
   if (!practising()) note(What::repeated, now_ns_);
