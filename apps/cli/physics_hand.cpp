@@ -32,11 +32,11 @@ constexpr double kPalmMass_kg = 1.0;
 constexpr double kBoneMass_kg = 0.03;
 constexpr double kKnuckleMass_kg = 0.005;
 constexpr btScalar kKnuckleInertia = btScalar(2e-6);
-constexpr double kCatchUp_per_s = 60.0;  // of the palm's drive
-constexpr double kCatchUpMax_m_per_s = 0.4;
-constexpr double kCatchUpMax_rad_per_s = 3.0;
-constexpr double kMotorTorque_Nm = 1.0;
-constexpr double kMotorMax_rad_per_s = 10.0;
+constexpr double kCatchUp_hz = 60.0;  // of the palm's drive
+constexpr double kCatchUpMax_mps = 0.4;
+constexpr double kCatchUpMaxTurn_radps = 3.0;
+constexpr double kMotorTorque_nm = 1.0;
+constexpr double kMotorMax_radps = 10.0;
 constexpr btScalar kInertiaTimes = btScalar(10);  // so that bones are not flung by a touch
 constexpr double kMargin_m = 0.0005;
 constexpr double kGhostDistance_m = 0.1;
@@ -195,9 +195,9 @@ class HandBodies {
       const Vec3 lag = a.position + before * (b.position - a.position) - here.position;
       const Vec3 turned = turn_between(here.rotation, a.rotation.slerp(before, b.rotation));
       body_->setBaseVel(
-          to_bullet(tracked_speed + shortened(kCatchUp_per_s * lag, kCatchUpMax_m_per_s)));
+          to_bullet(tracked_speed + shortened(kCatchUp_hz * lag, kCatchUpMax_mps)));
       body_->setBaseOmega(
-          to_bullet(tracked_turn + shortened(kCatchUp_per_s * turned, kCatchUpMax_rad_per_s)));
+          to_bullet(tracked_turn + shortened(kCatchUp_hz * turned, kCatchUpMaxTurn_radps)));
       for (std::size_t d = 0; d < kDigitCount; ++d) {
         const DigitFreedoms first = freedoms_of(angles_from[d]);
         const DigitFreedoms now = first + share * (freedoms_of(angles_to[d]) - first);
@@ -205,7 +205,7 @@ class HandBodies {
           const std::size_t link = d * kLinksPerDigit + i;
           motors_[link]->setPositionTarget(
               static_cast<btScalar>(now[kFreedom[i]] - start_[d][kFreedom[i]]));
-          motors_[link]->setMaxAppliedImpulse(static_cast<btScalar>(kMotorTorque_Nm * step_s));
+          motors_[link]->setMaxAppliedImpulse(static_cast<btScalar>(kMotorTorque_nm * step_s));
         }
       }
       world_.stepSimulation(static_cast<btScalar>(step_s), 0);
@@ -316,7 +316,7 @@ class HandBodies {
     const double high = std::max(0.0, (i == 1 ? range.abduction_max : range.flexion_max) - start);
     auto motor = std::make_unique<btMultiBodyJointMotor>(body_.get(), static_cast<int>(link),
                                                          btScalar(0), btScalar(1));
-    motor->setRhsClamp(static_cast<btScalar>(kMotorMax_rad_per_s));
+    motor->setRhsClamp(static_cast<btScalar>(kMotorMax_radps));
     motors_[link] = motor.get();
     drives_.push_back(std::move(motor));
     drives_.push_back(std::make_unique<btMultiBodyJointLimitConstraint>(
