@@ -189,14 +189,8 @@ Status OutputFile::write(std::string_view bytes) {
 Status OutputFile::flush() {
   NADE_ASSERT(impl_ != nullptr && impl_->stream != nullptr);
   errno = 0;
-  if (::gzflush(impl_->stream, Z_SYNC_FLUSH) != Z_OK) {
-    return unwritable(impl_->path, errno != 0 ? errno : EIO);
-  }
-  // Pipes and devices have nothing to be put on.
-  if (::fdatasync(impl_->file.descriptor) != 0 && errno != EINVAL) {
-    return unwritable(impl_->path, errno);
-  }
-  return ok_status();
+  if (::gzflush(impl_->stream, Z_SYNC_FLUSH) == Z_OK) return ok_status();
+  return unwritable(impl_->path, errno != 0 ? errno : EIO);
 }
 
 Status OutputFile::finish() {

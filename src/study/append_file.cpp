@@ -84,8 +84,10 @@ Result<std::size_t> AppendFile::cut_torn_line() {
   return static_cast<std::size_t>(info.st_size - end);
 }
 
-Status sync_folder(const std::string& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+Status sync_folder(const std::string& path) { return sync_file(path); }
+
+Status sync_file(const std::string& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return unwritable(path, errno);
   const bool synced = ::fsync(descriptor) == 0 || errno == EINVAL;
   const int error_number = errno;

@@ -35,6 +35,8 @@ class AppendFile {
 
 /// Makes a folder and those above it, and puts them on disk.
 [[nodiscard]] Status make_folder(const std::string& path);
+/// Puts a file that was written on disk.
+[[nodiscard]] Status sync_file(const std::string& path);
 /// Puts a folder's list of files on disk.
 [[nodiscard]] Status sync_folder(const std::string& path);
 /// Writes a file that appears whole, on disk.

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "append_file.h"
+
 namespace nade::study {
 namespace {
 
@@ -79,7 +81,7 @@ class FilePair {
     if (!tracked) return tracked.error();
     auto corrected = RecordingWriter::create(files.corrected_path, files.corrected_header, kAtOnce);
     if (!corrected) return corrected.error();
-    return FilePair(std::move(tracked).value(), std::move(corrected).value());
+    return FilePair(files, std::move(tracked).value(), std::move(corrected).value());
   }
 
   Status write(const MotionFrame& frame) {
@@ -96,16 +98,23 @@ class FilePair {
     return tracked ? corrected_.flush() : tracked;
   }
   Status finish() {
-    const Status flushed = flush();
     const Status tracked = tracked_.finish();
     const Status corrected = corrected_.finish();
-    if (!flushed) return flushed;
-    return tracked ? corrected : tracked;
+    if (!tracked) return tracked;
+    if (!corrected) return corrected;
+    const Status synced = sync_file(tracked_path_);
+    return synced ? sync_file(corrected_path_) : synced;
   }
 
  private:
-  FilePair(RecordingWriter tracked, RecordingWriter corrected)
-      : tracked_(std::move(tracked)), corrected_(std::move(corrected)) {}
+  FilePair(const MotionFiles& files, RecordingWriter tracked, RecordingWriter corrected)
+      : tracked_path_(files.tracked_path),
+        corrected_path_(files.corrected_path),
+        tracked_(std::move(tracked)),
+        corrected_(std::move(corrected)) {}
+
+  std::string tracked_path_;
+  std::string corrected_path_;
 
   RecordingWriter tracked_;
   RecordingWriter corrected_;

@@ -31,7 +31,7 @@ class OutputFile {
   ~OutputFile();
 
   [[nodiscard]] Status write(std::string_view bytes);
-  /// Puts what was written so far on disk.
+  /// Hands what was written so far to the system, with which it outlives the program.
   [[nodiscard]] Status flush();
   /// Nothing may be written after it, whether it succeeded or not.
   [[nodiscard]] Status finish();

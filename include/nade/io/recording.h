@@ -90,8 +90,8 @@ class RecordingWriter {
   ~RecordingWriter();
 
   [[nodiscard]] Status write(const RecordedFrame& frame);
-  /// Puts what was written so far on disk, so that of a program that is killed it can be read; of
-  /// use only for a file that appears at once.
+  /// Hands what was written so far to the system, so that of a program that is killed it can be
+  /// read; of use only for a file that appears at once.
   [[nodiscard]] Status flush();
   [[nodiscard]] Status finish();
 

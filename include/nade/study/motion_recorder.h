@@ -29,8 +29,8 @@ struct MotionFiles {
 };
 
 /// Writes motions to pairs of recordings on a thread of its own, one after another. What is pushed
-/// is on disk less than a second later; of a program that is killed the files can be read up to
-/// there. Positions are kept to 0.1 µm and turns to 1e-7.
+/// outlives the program less than a second later: of one that is killed the files can be read up to
+/// there. Whole files are on disk. Positions are kept to 0.1 µm and turns to 1e-7.
 class MotionRecorder {
  public:
   /// Room for so many frames that are not written yet, all of it taken at once; > 0.
