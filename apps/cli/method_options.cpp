@@ -114,6 +114,13 @@ void add_open_points(CLI::App& command, CorrectorOptions& options) {
 void add_method_options(CLI::App& command, MethodOptions& options) {
   add_choice<Method>(command, "--method", options.corrector.method, methods(),
                      "how to correct (default nade)");
+  command
+      .add_option_function<double>(
+          "--softness",
+          [&options](const double& mm) { options.corrector.settle.softness_m = 0.001 * mm; },
+          "of the object: the skin sinks in by up to so much (method nade; default 0)")
+      ->type_name("MM")
+      ->check(CLI::Range(0.0, 20.0));
   CLI::Option* const literal = command.add_flag("--paper-literal", options.literal,
                                                 "every open point as the paper's text has it");
   literal->group(kGroup);

@@ -149,9 +149,9 @@ class Projector {
       }
     }
     if (glimpses.empty()) glimpses = show.survey.glimpses;
-    return std::unique_ptr<Projector>(
-        new Projector(arguments, show.placed, std::move(studio).value(), std::move(reader).value(),
-                      CameraPlan(arguments.camera, glimpses)));
+    return std::unique_ptr<Projector>(new Projector(arguments, show, std::move(studio).value(),
+                                                    std::move(reader).value(),
+                                                    CameraPlan(arguments.camera, glimpses)));
   }
 
   /// Times must not decrease.
@@ -163,6 +163,7 @@ class Projector {
     frame.hands = moment->hands;
     frame.shown = arguments_->shown.value_or(draw::Shown::corrected);
     frame.overlays = arguments_->overlays;
+    frame.softness_m = softness_m_;
     const PictureSize& size = arguments_->size;
     frame.pixel_scale = static_cast<float>(size.height) / 720.0F;
     const draw::Camera camera = plan_.at(time_ns, size.aspect());
@@ -173,16 +174,18 @@ class Projector {
   }
 
  private:
-  Projector(const RenderArguments& arguments, PlacedObject& placed, Studio studio,
-            MomentReader reader, CameraPlan plan)
+  Projector(const RenderArguments& arguments, Show& show, Studio studio, MomentReader reader,
+            CameraPlan plan)
       : arguments_(&arguments),
-        placed_(&placed),
+        placed_(&show.placed),
+        softness_m_(show.softness_m),
         studio_(std::move(studio)),
         moments_(std::move(reader)),
         plan_(std::move(plan)) {}
 
   const RenderArguments* arguments_;
   PlacedObject* placed_;
+  double softness_m_;
   Studio studio_;
   MomentSampler moments_;
   CameraPlan plan_;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -10,9 +11,12 @@
 namespace nade::cli {
 namespace {
 
+constexpr double kSoftest_m = 0.02;
+
 /// What the headers of the recordings say.
 struct Headers {
   std::optional<ObjectPlacing> placing;
+  double softness_m = 0.0;
   bool is_corrected = false;  ///< the first recording names a method
 };
 
@@ -34,6 +38,9 @@ Result<Headers> read_headers(const ShowArguments& arguments) {
     if (!placing) return placing.error();
     if (!headers.placing) headers.placing = *placing;
     const auto json = nlohmann::json::parse(header->unknown_json, nullptr, false);
+    if (json.is_object() && json.contains("softness") && json["softness"].is_number()) {
+      headers.softness_m = std::clamp(json["softness"].get<double>(), 0.0, kSoftest_m);
+    }
     headers.is_corrected = json.is_object() && json.contains("method");
   }
   return headers;
@@ -100,8 +107,13 @@ Result<Show> prepare(const ShowArguments& arguments) {
                           seen->scale};
   use_own_hands(arguments.hands, *hands, performance.method);
   if (headers->is_corrected) performance.method.method = Method::none;
-  return Show{std::move(hands).value(), std::move(seen).value(), std::move(placed).value(),
-              std::move(performance), !headers->is_corrected};
+  const double softness_m = std::max(performance.method.settle.softness_m, headers->softness_m);
+  return Show{std::move(hands).value(),
+              std::move(seen).value(),
+              std::move(placed).value(),
+              std::move(performance),
+              softness_m,
+              !headers->is_corrected};
 }
 
 Result<Studio> open_studio(const draw::HandMeshes& hands) {

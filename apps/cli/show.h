@@ -31,6 +31,7 @@ struct Show {
   Survey survey;
   PlacedObject placed;
   Performance performance;
+  double softness_m = 0.0;  ///< of the object, as asked or as the header says
   bool has_tracked = true;  ///< not where a corrected recording stands alone
 };
 

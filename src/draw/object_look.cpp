@@ -6,8 +6,6 @@
 #include <limits>
 #include <numbers>
 
-#include "nade/io/assets.h"
-
 namespace nade::draw {
 namespace {
 
@@ -191,6 +189,7 @@ DrawnMesh part_of(const DrawnMesh& mesh, const Keep& keep) {
         part.positions.push_back(mesh.positions[vertex]);
         if (!mesh.normals.empty()) part.normals.push_back(mesh.normals[vertex]);
         part.colors.push_back(mesh.colors[vertex]);
+        if (!mesh.sources.empty()) part.sources.push_back(mesh.sources[vertex]);
       }
       kept[k] = place[vertex];
     }
@@ -274,13 +273,8 @@ Result<DressedObject> dress(const LoadedObject& object) {
                                     static_cast<float>(ball->radius() * object.base.scale))},
                          {}};
   }
-  const bool is_dog = object.spec == "dog";
-  std::string path = object.spec;
-  if (is_dog) {
-    const Result<std::string> found = find_asset("dog.glb");
-    if (!found) return found.error();
-    path = *found;
-  }
+  const bool is_dog = object.spec == "dog" || object.spec.starts_with("dog:");
+  const std::string& path = object.file.empty() ? object.spec : object.file;
   if (!has_materials(path)) return dress_soup(object.soup.value_or(TriangleSoup{}));
   Result<DressedObject> dressed = load_drawn_meshes(path);
   if (!dressed) return dressed.error();

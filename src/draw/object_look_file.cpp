@@ -26,6 +26,7 @@ struct Source {
   std::string path;
   bool gltf = false;  ///< colours are linear light
   std::map<std::string, std::shared_ptr<const Image>> textures{};
+  std::uint32_t vertices = 0;  ///< so far, as `load_mesh` counts them
   DressedObject dressed{};
 };
 
@@ -116,7 +117,7 @@ Eigen::Matrix4f matrix_of(const aiMatrix4x4& m) {
   return matrix;
 }
 
-void read_vertices(const aiMesh& from, const Eigen::Matrix4f& to_root, const Source& source,
+void read_vertices(const aiMesh& from, const Eigen::Matrix4f& to_root, Source& source,
                    DrawnMesh& mesh) {
   const Eigen::Matrix3f linear = to_root.topLeftCorner<3, 3>();
   const Eigen::Matrix3f for_normals = linear.inverse().transpose();
@@ -124,6 +125,7 @@ void read_vertices(const aiMesh& from, const Eigen::Matrix4f& to_root, const Sou
     const aiVector3D& v = from.mVertices[i];
     mesh.positions.emplace_back(linear * Eigen::Vector3f(v.x, v.y, v.z) +
                                 to_root.topRightCorner<3, 1>());
+    mesh.sources.push_back(source.vertices++);
     if (from.HasNormals()) {
       const aiVector3D& n = from.mNormals[i];
       mesh.normals.emplace_back((for_normals * Eigen::Vector3f(n.x, n.y, n.z)).normalized());

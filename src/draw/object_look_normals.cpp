@@ -44,6 +44,7 @@ DrawnMesh torn_apart(const DrawnMesh& mesh) {
       apart.positions.push_back(mesh.positions[vertex]);
       if (!mesh.colors.empty()) apart.colors.push_back(mesh.colors[vertex]);
       if (!mesh.texcoords.empty()) apart.texcoords.push_back(mesh.texcoords[vertex]);
+      if (!mesh.sources.empty()) apart.sources.push_back(mesh.sources[vertex]);
     }
   }
   return apart;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "object_look.h"
+#include "object_shape.h"
 #include "stage_diagram.h"
 #include "stage_skin.h"
 
@@ -22,6 +23,8 @@ constexpr float kGhostBehind = 0.75F;
 /// A flat bottom, or a sheet, does not flicker with the floor.
 constexpr double kFloorBelow = 0.0005;
 constexpr float kGlassOpacity = 0.48F;
+/// A soft object follows skin that lies so much deeper than its softness, and no farther.
+constexpr double kDentMore = 0.004;
 
 double farthest_joint(const HandPose& a, const HandPose& b) {
   double farthest = 0.0;
@@ -50,6 +53,7 @@ struct Stage::Impl {
   const LoadedObject* object = nullptr;
   Placement placement;
   std::vector<MeshId> object_meshes;
+  ObjectShape shape;
   std::vector<Vec3f> corners;  ///< of the boxes about the object's meshes, in its own frame
   std::vector<std::string> warnings;
   Scene scene;
@@ -67,6 +71,7 @@ struct Stage::Impl {
   void clear_object() {
     for (const MeshId mesh : object_meshes) renderer->remove(mesh);
     object_meshes.clear();
+    shape.clear();
     corners.clear();
     warnings.clear();
   }
@@ -121,8 +126,16 @@ struct Stage::Impl {
     }
     scene.instances.push_back({to->solid, {}});
     hand_instances.push_back(scene.instances.back());
+    if (gives_way(frame) && object != nullptr) {
+      shape.press(object->placed(placement), to->poser.positions());
+    }
     if (frame.shown == Shown::both) add_ghost(hand, scale, *to);
     add_diagram(hand, frame, scene);
+  }
+
+  /// A hand that is not corrected would leave no more than a hole.
+  static bool gives_way(const StageFrame& frame) {
+    return frame.softness_m > 0.0 && frame.shown != Shown::tracked;
   }
 
   void show_depth(DrawnHand& hand) {
@@ -186,6 +199,7 @@ Status Stage::set_object(const LoadedObject& object, const Placement& placement)
   impl_->warnings = std::move(dressed->warnings);
   for (const DrawnMesh& mesh : dressed->meshes) {
     impl_->object_meshes.push_back(impl_->renderer->add(mesh));
+    impl_->shape.add(impl_->object_meshes.back(), mesh);
     Eigen::AlignedBox3f box;
     for (const Vec3f& position : mesh.positions) box.extend(position);
     for (int corner = 0; corner < 8; ++corner) {
@@ -205,6 +219,7 @@ void Stage::set_placement(const Placement& placement) {
 
 const Scene& Stage::arrange(const StageFrame& frame) {
   impl_->start_scene();
+  if (impl_->object != nullptr) impl_->shape.follow(*impl_->object);
   impl_->add_object(frame.overlays.see_through ? Look::ghost : Look::solid);
   Vec3 sum = Vec3::Zero();
   int count = 0;
@@ -214,6 +229,7 @@ const Scene& Stage::arrange(const StageFrame& frame) {
     sum += frame.hands[side]->corrected[Joint::palm].position;
     ++count;
   }
+  impl_->shape.update(*impl_->renderer, impl_->placement, frame.softness_m + kDentMore);
   if (count > 0) {
     impl_->scene.focus = sum / count;
     impl_->scene.focus_radius_m = count == 1 ? 0.2 : 0.35;
@@ -223,6 +239,8 @@ const Scene& Stage::arrange(const StageFrame& frame) {
 
 const Scene& Stage::arrange_object() {
   impl_->start_scene();
+  if (impl_->object != nullptr) impl_->shape.follow(*impl_->object);
+  impl_->shape.update(*impl_->renderer, impl_->placement, 0.0);
   impl_->add_object(Look::solid);
   return impl_->scene;
 }

@@ -34,6 +34,8 @@ struct DrawnMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   Material material;
   std::shared_ptr<const Image> texture;  ///< multiplies the base colour; needs texcoords
+  /// Of an object's mesh: which vertex of the object each position is.
+  std::vector<std::uint32_t> sources;
 };
 
 /// A mesh that a Renderer holds.

@@ -42,6 +42,8 @@ struct StageFrame {
   std::array<std::optional<StagedHand>, 2> hands{};  ///< by index_of(Handedness)
   Shown shown = Shown::corrected;                    ///< both: the tracked hand as a ghost
   Overlays overlays;
+  /// Of the object, metres: it gives way to corrected skin that lies in it by about so much.
+  double softness_m = 0.0;
   float pixel_scale = 1.0F;  ///< of line widths and labels, for pictures larger than a screen
 };
 
@@ -71,7 +73,8 @@ class Stage {
   ~Stage();
 
   /// Shows another object. Mesh files come with their materials and textures. `object` must
-  /// outlive the stage or the next call.
+  /// outlive the stage or the next call; where it is moved on in between, the next scene shows it
+  /// so.
   [[nodiscard]] Status set_object(const LoadedObject& object, const Placement& placement);
   /// What of the object could not be shown as its file says, a sentence each.
   [[nodiscard]] const std::vector<std::string>& warnings() const;

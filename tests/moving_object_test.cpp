@@ -1,0 +1,206 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "nade/corrector.h"
+#include "nade/io/object_file.h"
+#include "support/allocation_counter.h"
+#include "support/sample_hand.h"
+
+namespace nade {
+namespace {
+
+constexpr std::int64_t kFrame_ns = 11'111'111;
+constexpr double kFrame_s = 1e-9 * kFrame_ns;
+constexpr double kNear_m = 0.05;
+
+CorrectorOptions settling() {
+  CorrectorOptions options;
+  options.method = Method::nade;
+  return options;
+}
+
+/// A hand that lies on a place of an object, the palm's skin so deep.
+HandPose laid_hand(const Pose& place, double depth_m) {
+  HandPose hand = test::sample_hand(Handedness::right, test::relaxed_angles());
+  const double scale = kGenericHandLength / hand_length(hand);
+  for (Pose& joint : hand.joints) joint.position *= scale;
+  const double skin_m = generic_skin_depths()[Part::palm];
+  return test::placed_hand(
+      hand, place.position + (skin_m - depth_m) * (place.rotation * Vec3::UnitY()), place.rotation);
+}
+
+Vec3 position_of(const FleshPoint& point, const HandPose& hand, double scale) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 0; k < point.joints.size(); ++k) {
+    sum += point.weights[k] * hand.joints[point.joints[k]].apply(scale * point.local[k]);
+  }
+  return sum;
+}
+
+/// Signed distance of the deepest skin; `kNear_m` where none is near.
+double lowest_skin(const HandPose& hand, const Object& object) {
+  const HandFlesh& flesh = generic_flesh(hand.side);
+  const double scale = hand_length(hand) / flesh.hand_length_m;
+  double lowest = kNear_m;
+  SurfaceHint hint;
+  for (const FleshPoint& point : flesh.skin) {
+    const auto nearest = object.closest_point(position_of(point, hand, scale), kNear_m, hint);
+    if (nearest) lowest = std::min(lowest, nearest->signed_distance);
+  }
+  return lowest;
+}
+
+bool all_finite(const HandPose& hand) {
+  return std::all_of(hand.joints.begin(), hand.joints.end(), [](const Pose& joint) {
+    return joint.position.allFinite() && joint.rotation.coeffs().allFinite();
+  });
+}
+
+struct Span {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  void add(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  [[nodiscard]] double length() const { return high - low; }
+};
+
+/// What a hand saw that came down onto a moving object and stayed where it was, in the world.
+struct Rest {
+  double deepest_m = 0.0;   ///< of the drawn skin in the object
+  double farthest_m = 0.0;  ///< of the drawn hand off the object
+  double fastest_m = 0.0;   ///< of a drawn joint, from one frame to the next
+  Span drawn_height_m;      ///< of the drawn palm, along the place's normal
+  Span surface_height_m;    ///< of the object under it
+};
+
+/// `move` puts the object where and how it is at a time, seconds, and gives it.
+template <class Move>
+Rest rest_on(const Pose& place, double depth_m, double seconds, const Move& move) {
+  constexpr double kComing_s = 1.0;
+  HandCorrector corrector(settling());
+  const Vec3 up = place.rotation * Vec3::UnitY();
+  Rest rest;
+  std::optional<HandPose> before;
+  for (int i = 0; i * kFrame_s < kComing_s + seconds; ++i) {
+    const double time_s = i * kFrame_s;
+    const double share = std::min(1.0, time_s / (0.7 * kComing_s));
+    const HandPose tracked = laid_hand(place, depth_m - (1.0 - share) * (0.08 + depth_m));
+    const Object object = move(std::max(0.0, time_s - kComing_s));
+    const HandPose drawn = corrector.update(tracked, object, i * kFrame_ns).pose;
+    EXPECT_TRUE(all_finite(drawn)) << "frame " << i;
+    if (time_s > kComing_s) {
+      const double lowest_m = lowest_skin(drawn, object);
+      rest.deepest_m = std::max(rest.deepest_m, -lowest_m);
+      rest.farthest_m = std::max(rest.farthest_m, lowest_m);
+      rest.fastest_m = std::max(rest.fastest_m, largest_motion(*before, drawn));
+      rest.drawn_height_m.add(up.dot(drawn[Joint::palm].position - place.position));
+      const auto hit = object.first_hit({place.position + 0.05 * up, -up, 0.1});
+      if (hit) rest.surface_height_m.add(up.dot(hit->point - place.position));
+    }
+    before = drawn;
+  }
+  return rest;
+}
+
+class LivingDog : public testing::Test {
+ protected:
+  void SetUp() override {
+    Result<LoadedObject> loaded = load_object(NADE_TEST_DOG ":alive");
+    ASSERT_TRUE(loaded.ok()) << loaded.error().message;
+    dog_.emplace(std::move(loaded).value());
+  }
+  [[nodiscard]] Pose place(const char* name) const { return dog_->place(name)->pose; }
+  [[nodiscard]] Rest rest_at(const Pose& place, double depth_m) {
+    return rest_on(place, depth_m, dog_->animation->duration_s(), [this](double time_s) {
+      dog_->move_to(time_s);
+      return dog_->placed();
+    });
+  }
+
+  std::optional<LoadedObject> dog_;
+};
+
+TEST_F(LivingDog, AHandAtRestOnItsFlankRidesOnItsBreath) {
+  const Rest rest = rest_at(place("flank"), 0.01);
+  EXPECT_GT(rest.surface_height_m.length(), 0.004);
+  EXPECT_NEAR(rest.drawn_height_m.length(), rest.surface_height_m.length(), 0.002);
+  EXPECT_LT(rest.deepest_m, 0.002);
+  EXPECT_LT(rest.farthest_m, 0.002);
+  EXPECT_LT(rest.fastest_m, 0.0015);
+}
+
+TEST_F(LivingDog, AHandAtRestOnItsBackRidesOnItsBreath) {
+  const Rest rest = rest_at(place("back"), 0.01);
+  EXPECT_GT(rest.surface_height_m.length(), 0.002);
+  EXPECT_NEAR(rest.drawn_height_m.length(), rest.surface_height_m.length(), 0.002);
+  EXPECT_LT(rest.deepest_m, 0.002);
+  EXPECT_LT(rest.farthest_m, 0.002);
+  EXPECT_LT(rest.fastest_m, 0.0015);
+}
+
+TEST_F(LivingDog, ItsHeadTurnsUnderThePalm) {
+  const Rest rest = rest_at(place("head"), 0.01);
+  EXPECT_LT(rest.deepest_m, 0.002);
+  EXPECT_LT(rest.fastest_m, 0.004);
+}
+
+TEST_F(LivingDog, ItsTailStrikesAHandWithoutGoingThrough) {
+  // Lies across the tail, above its rest.
+  const Vec3 on_tail(0.33, 0.398, 0.0);
+  SurfaceHint hint;
+  const auto skin = dog_->placed().closest_point(on_tail, 0.05, hint);
+  ASSERT_TRUE(skin.has_value());
+  const Pose place{skin->point, Quat(Eigen::AngleAxisd(1.57, Vec3::UnitY()))};
+  const Rest rest = rest_at(place, 0.005);
+  EXPECT_LT(rest.deepest_m, 0.002);
+  EXPECT_LT(rest.fastest_m, 0.02);
+}
+
+TEST_F(LivingDog, AFrameWithItsMotionAllocatesNothing) {
+  HandCorrector corrector(settling());
+  const HandPose tracked = laid_hand(place("flank"), 0.01);
+  dog_->move_to(0.0);
+  for (int i = 0; i < 60; ++i) {
+    const auto count = test::allocations_of([&] {
+      dog_->move_to(i * kFrame_s);
+      corrector.update(tracked, dog_->placed(), i * kFrame_ns);
+    });
+    EXPECT_EQ(count, 0U) << "frame " << i;
+  }
+}
+
+TEST(MovingObject, AHandAtRestRidesOnWhatRisesTurnsAndGrows) {
+  const SphereSurface ball(0.15);
+  const Pose top{{0.0, 0.0, 0.0}, Quat::Identity()};
+  const auto at = [&](double rise_m, double turn_rad, double scale) {
+    const Quat turn(Eigen::AngleAxisd(turn_rad, Vec3(0.3, 0.5, 0.8).normalized()));
+    return Object(ball, {{{0.0, rise_m - 0.15 * scale, 0.0}, turn}, scale});
+  };
+  const double round = 2.0 * 3.14159265358979 / 3.0;
+  for (const int which : {0, 1, 2}) {
+    SCOPED_TRACE(which);
+    const Rest rest = rest_on(top, 0.012, 3.0, [&](double time_s) {
+      const double swing = std::sin(round * time_s);
+      if (which == 0) return at(0.008 * swing, 0.0, 1.0);
+      if (which == 1) return at(0.0, 0.5 * swing, 1.0);
+      // About its middle, so that its top rises and sinks.
+      return at(0.15 * 0.05 * swing, 0.0, 1.0 + 0.05 * swing);
+    });
+    // The fingers bend to a ball that comes nearer, so that the palm rises less than it does.
+    EXPECT_GT(rest.drawn_height_m.length(), 0.7 * rest.surface_height_m.length());
+    EXPECT_LT(rest.drawn_height_m.length(), rest.surface_height_m.length() + 0.002);
+    EXPECT_LT(rest.deepest_m, 0.002);
+    EXPECT_LT(rest.farthest_m, 0.002);
+    EXPECT_LT(rest.fastest_m, 0.002);
+  }
+}
+
+}  // namespace
+}  // namespace nade
