@@ -4,144 +4,107 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
-#include <sstream>
 #include <utility>
+#include <vector>
 
-#include "nade/study/answer_table.h"
-#include "plan_json.h"
+#include "nade/study/participant.h"
 
 namespace nade::study {
 namespace {
 
-namespace fs = std::filesystem;
+std::string name_of(Method method) { return std::string(method_name(method)); }
 
-/// A participant's plan.json, as docs/study.md has it.
-struct ParticipantPlan {
-  std::string participant;
-  std::map<std::size_t, Trial> trials;  ///< by number
-  Plan plan;
-  bool simulated = false;
-  double speed = 1.0;
-};
-
-Trial trial_from(const JsonReader& json) {
-  Trial trial;
-  trial.number = json.at("trial").whole(1, 9999);
-  trial.object = json.at("object").text();
-  const auto method = method_from_name(json.at("method").text());
-  if (!method) json.at("method").refuse("\"none\", \"paper\" or \"nade\"");
-  trial.method = method.value_or(Method::none);
-  return trial;
+GivenAnswer given(const KeptAnswer& kept, Origin origin) {
+  GivenAnswer answer;
+  answer.participant = kept.participant;
+  answer.object = kept.object;
+  answer.method = kept.method;
+  answer.question = kept.question;
+  answer.value = kept.answer;
+  answer.trial = kept.trial;
+  answer.order = kept.order;
+  answer.response_time_s = kept.response_time_s;
+  answer.attempt = kept.attempt;
+  answer.changed = kept.changed;
+  answer.simulated = origin == Origin::simulated;
+  return answer;
 }
 
-Result<ParticipantPlan> read_participant_plan(const std::string& path) {
-  const Result<std::string> text = read_text(path, "a participant's plan");
-  if (!text) return text.error();
-  const Result<Json> json = parse_json(*text, path);
-  if (!json) return json.error();
-  std::optional<Error> error;
-  const JsonReader reader(*json, path, error);
-  ParticipantPlan read;
-  read.participant = reader.at("participant").text();
-  const JsonReader order = reader.at("order");
-  for (std::size_t i = 0; i < order.count(0); ++i) {
-    const Trial trial = trial_from(order.at(i));
-    read.trials[trial.number] = trial;
-  }
-  read.plan = plan_from(reader.at("plan"));
-  if (reader.has("simulated")) {
-    const Json& simulated = reader.at("simulated").json();
-    read.simulated = !simulated.is_boolean() || simulated.get<bool>();
-  }
-  if (reader.has("speed")) read.speed = reader.at("speed").number(0.0, 1e6);
-  if (error) return *error;
-  return read;
-}
-
-/// Reasons are worth having, but a log that is damaged is no reason to stop: `nade study check`
-/// says so.
-void add_skipped(const std::string& path, const ParticipantPlan& plan, StudyData& data) {
-  const Result<std::string> text = read_text(path, "a log");
-  if (!text) return;
-  std::istringstream lines(*text);
-  for (std::string line; std::getline(lines, line);) {
-    const Json json = Json::parse(line, nullptr, false);
-    if (!json.is_object() || json.value("event", Json()) != "skipped") continue;
-    const Json number = json.value("trial", Json());
-    if (!number.is_number_unsigned()) continue;
-    const auto trial = plan.trials.find(number.get<std::size_t>());
-    if (trial == plan.trials.end()) continue;
-    const Json reason = json.value("reason", Json());
-    data.skipped.push_back({plan.participant, trial->second.object,
-                            std::string(method_name(trial->second.method)),
-                            reason.is_string() ? reason.get<std::string>() : std::string()});
+/// Trials without an answer for which the log has a reason.
+void add_skipped(const Participant& participant, const std::vector<KeptAnswer>& counting,
+                 StudyData& data) {
+  for (const LogLine& line : participant.log) {
+    const auto& trials = participant.head.trials;
+    if (line.event != "skipped" || line.trial < 1 || line.trial > trials.size()) continue;
+    const bool answered =
+        std::any_of(counting.begin(), counting.end(),
+                    [&](const KeptAnswer& answer) { return answer.trial == line.trial; });
+    if (answered) continue;
+    const Trial& trial = trials[line.trial - 1];
+    data.skipped.push_back(
+        {participant.head.participant, trial.object, name_of(trial.method), line.reason});
   }
 }
 
-/// The recordings of the attempts that count.
-void add_recordings(const fs::path& folder, const ParticipantPlan& plan,
-                    const std::vector<GivenAnswer>& answers, StudyData& data) {
-  for (const auto& [number, trial] : plan.trials) {
-    const std::string method(method_name(trial.method));
-    const auto answer = std::find_if(answers.begin(), answers.end(), [&](const GivenAnswer& given) {
-      return given.object == trial.object && given.method == method;
-    });
-    if (answer == answers.end()) continue;
-    const std::string attempt =
-        answer->attempt > 1 ? fmt::format("-attempt-{}", answer->attempt) : std::string();
-    const std::string stem =
-        fmt::format("trial-{:02}-{}-{}{}", number, trial.object, method, attempt);
-    RecordedTrial recorded{plan.participant, trial.object, method,
+/// The recordings of the attempts whose answers count.
+void add_recordings(const Participant& participant, const std::vector<KeptAnswer>& counting,
+                    StudyData& data) {
+  const std::filesystem::path folder(participant.folder);
+  for (const Trial& trial : participant.head.trials) {
+    const auto answer =
+        std::find_if(counting.begin(), counting.end(),
+                     [&](const KeptAnswer& counted) { return counted.trial == trial.number; });
+    if (answer == counting.end()) continue;
+    const std::string stem = recording_stem(trial, answer->attempt);
+    RecordedTrial recorded{participant.head.participant, trial.object, name_of(trial.method),
                            (folder / (stem + ".tracked.jsonl.gz")).string(),
                            (folder / (stem + ".corrected.jsonl.gz")).string()};
     std::error_code aside;
-    if (!fs::exists(recorded.tracked_path, aside)) continue;
-    if (!fs::exists(recorded.corrected_path, aside)) continue;
+    if (!std::filesystem::exists(recorded.tracked_path, aside)) continue;
+    if (!std::filesystem::exists(recorded.corrected_path, aside)) continue;
     data.recordings.push_back(std::move(recorded));
   }
 }
 
-void take_plan(const ParticipantPlan& plan, StudyData& data) {
-  data.participants.push_back(plan.participant);
-  data.simulated = data.simulated || plan.simulated;
-  if (plan.speed != 1.0) {
+/// Notes what sets a participant apart.
+void add_head(const ParticipantPlan& head, StudyData& data) {
+  data.participants.push_back(head.participant);
+  data.simulated = data.simulated || head.origin == Origin::simulated;
+  if (head.speed != 1.0) {
     data.warnings.push_back(
-        fmt::format("{} ran at {:g} times life's speed", plan.participant, plan.speed));
+        fmt::format("{} ran at {:g} times life's speed", head.participant, head.speed));
   }
   if (!data.plan) {
-    data.plan = plan.plan;
+    data.plan = head.plan;
     return;
   }
-  const std::string difference = difference_of(*data.plan, plan.plan);
+  const std::string difference = difference_of(*data.plan, head.plan);
   if (difference.empty()) return;
-  data.warnings.push_back(fmt::format("{}: its plan differs from {}'s in {}", plan.participant,
-                                      data.participants.front(), difference));
+  data.warnings.push_back(fmt::format("{}: the plan differs from {} in \"{}\"", head.participant,
+                                      data.participants.size() > 1
+                                          ? data.participants.front() + "'s"
+                                          : std::string("the one given"),
+                                      difference));
 }
 
 }  // namespace
 
-bool is_participant_folder(const std::string& path) {
-  std::error_code aside;
-  const fs::path folder(path);
-  return fs::exists(folder / "answers.csv", aside) || fs::exists(folder / "plan.json", aside);
-}
-
-Status add_participant(const std::string& path, StudyData& data) {
-  const fs::path folder(path);
-  const Result<ParticipantPlan> plan = read_participant_plan((folder / "plan.json").string());
-  if (!plan) return plan.error();
-  take_plan(*plan, data);
-  add_skipped((folder / "log.jsonl").string(), *plan, data);
-  const fs::path answers_path = folder / "answers.csv";
-  std::error_code aside;
-  if (!fs::exists(answers_path, aside)) return ok_status();
-  Result<AnswerTable> answers = read_answer_table(answers_path.string());
-  if (answers) answers = counting_answers(std::move(answers).value());
-  if (!answers) return answers.error();
-  for (std::string& warning : answers->warnings) data.warnings.push_back(std::move(warning));
-  add_recordings(folder, *plan, answers->answers, data);
-  for (GivenAnswer& answer : answers->answers) data.answers.push_back(std::move(answer));
+Status add_participant(const std::string& folder, StudyData& data) {
+  const Result<Participant> participant = read_participant(folder);
+  if (!participant) return participant.error();
+  if (!participant->problems.empty()) {
+    return Error{ErrorCode::bad_value, participant->problems.front()};
+  }
+  for (const std::string& file : participant->cut_files) {
+    data.warnings.push_back(fmt::format("{}: cut off in the last line, which is left out", file));
+  }
+  add_head(participant->head, data);
+  const std::vector<KeptAnswer> counting = answers_that_count(*participant);
+  add_skipped(*participant, counting, data);
+  add_recordings(*participant, counting, data);
+  for (const KeptAnswer& answer : counting) {
+    data.answers.push_back(given(answer, participant->head.origin));
+  }
   return ok_status();
 }
 

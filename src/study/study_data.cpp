@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "nade/study/participant.h"
 #include "natural_order.h"
 #include "participant_folder.h"
 
@@ -101,24 +102,15 @@ Status add_table(const std::string& path, StudyData& data) {
   return ok_status();
 }
 
+/// A study's folder, or one participant's alone.
 Status add_folder(const std::string& path, StudyData& data) {
-  if (is_participant_folder(path)) return add_participant(path, data);
-  std::vector<std::string> folders;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(path, error)) {
-    if (is_participant_folder(entry.path().string())) folders.push_back(entry.path().string());
+  std::error_code aside;
+  if (std::filesystem::exists(std::filesystem::path(path) / kPlanFile, aside)) {
+    return add_participant(path, data);
   }
-  if (error) {
-    return Error{ErrorCode::unreadable, fmt::format("{}: {}", path, error.message())};
-  }
-  if (folders.empty()) {
-    return Error{ErrorCode::not_found,
-                 fmt::format("{}: expected a folder for each participant, with plan.json and "
-                             "answers.csv, found none",
-                             path)};
-  }
-  std::sort(folders.begin(), folders.end(), natural_less);
-  for (const std::string& folder : folders) {
+  const Result<std::vector<std::string>> folders = participant_folders(path);
+  if (!folders) return folders.error();
+  for (const std::string& folder : *folders) {
     const Status added = add_participant(folder, data);
     if (!added) return added;
   }
