@@ -15,6 +15,8 @@ namespace {
 
 /// A ball about the palm with the hand in it, and some air.
 constexpr double kHandRadius = 0.12;
+/// Of a camera from the world's origin, metres: there nothing is seen any more.
+constexpr double kFarthest = 1000.0;
 /// Of the Gaussian that a followed path is smoothed with.
 constexpr double kSmoothingNs = 0.4e9;
 
@@ -30,6 +32,11 @@ void add_point(CLI::App& command, const std::string& name, std::optional<Vec3>& 
                   name, fmt::format("expected three numbers X,Y,Z, found '{}'", text));
             }
             point = Vec3(numbers->data());
+            if (point->norm() > kFarthest) {
+              throw CLI::ValidationError(
+                  name,
+                  fmt::format("expected a place within {:.0f} m, found '{}'", kFarthest, text));
+            }
           },
           help)
       ->type_name("X,Y,Z");

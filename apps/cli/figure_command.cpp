@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -23,7 +24,7 @@ struct FigureArguments {
   ShowArguments show;  ///< `recording` empty: the bundled strokes
   std::string name;    ///< of the recording, as the person gave it
   std::string output;
-  std::vector<std::string> methods{"paper"};
+  std::vector<std::string> methods{"nade"};
   std::optional<std::size_t> frame;
   std::optional<double> time_s;
 };
@@ -85,7 +86,7 @@ struct BundledStroke {
 };
 constexpr std::array<BundledStroke, 3> kBundled{{{"Plane", "plane", "", 0.30, 0.87},
                                                  {"Sphere", "sphere", "", 0.25, 0.87},
-                                                 {"Dog", "dog", "head", 0.46, 1.0}}};
+                                                 {"Dog", "dog", "back", 0.26, 1.3}}};
 constexpr double kBundledDepth = 0.02;
 
 Result<FigureRow> bundled_row(const BundledStroke& stroke, const draw::HandMeshes& meshes,
@@ -115,7 +116,12 @@ Result<FigureRow> bundled_row(const BundledStroke& stroke, const draw::HandMeshe
 Result<std::int64_t> time_of(const FigureArguments& arguments, const Show& show) {
   const std::int64_t first = show.survey.first_ns;
   if (arguments.time_s) {
-    return first + static_cast<std::int64_t>(std::llround(1e9 * *arguments.time_s));
+    const std::int64_t at =
+        first + static_cast<std::int64_t>(std::llround(1e9 * *arguments.time_s));
+    if (at <= show.survey.last_ns) return at;
+    return misuse(fmt::format("--time: expected 0 to {:.3f}, which is how long {} lasts, found {}",
+                              1e-9 * static_cast<double>(show.survey.last_ns - first),
+                              show.performance.recording, *arguments.time_s));
   }
   if (arguments.frame) {
     const auto time = time_of_frame(show.performance.recording, *arguments.frame);
@@ -166,6 +172,18 @@ Result<FigureContent> bundled_content(const draw::HandMeshes& hands,
   return content;
 }
 
+/// The paper explains itself in fewest terms; else the first method that corrects.
+std::size_t explained_method(const std::vector<CorrectorOptions>& methods) {
+  const auto at = [&methods](auto&& is_it) {
+    return static_cast<std::size_t>(std::find_if(methods.begin(), methods.end(), is_it) -
+                                    methods.begin());
+  };
+  const std::size_t paper = at([](const auto& m) { return m.method == Method::paper; });
+  if (paper < methods.size()) return paper;
+  const std::size_t corrects = at([](const auto& m) { return m.method != Method::none; });
+  return corrects < methods.size() ? corrects : 0;
+}
+
 Status run_on(const FigureArguments& arguments) {
   Result<std::vector<CorrectorOptions>> methods = corrector_options(arguments);
   if (!methods) return methods.error();
@@ -184,11 +202,9 @@ Status run_on(const FigureArguments& arguments) {
   }
   if (!content) return content.error();
   content->methods = arguments.methods;
-  content->explained = 0;
-  for (std::size_t m = 0; m < arguments.methods.size(); ++m) {
-    // The paper's own terms are what the last column explains.
-    if ((*methods)[m].method == Method::paper) content->explained = m;
-  }
+  content->explained = explained_method(*methods);
+  content->terms = (*methods)[content->explained].method == Method::paper ? FigureTerms::rays
+                                                                          : FigureTerms::skin;
   Result<Studio> studio = open_studio(*hands);
   if (!studio) return studio.error();
   const Result<draw::Image> sheet = draw_figure(*content, *studio);

@@ -203,20 +203,29 @@ class Sheet {
         canvas_.arrow({x + 4.0F, y}, {x + 84.0F, y}, width, color);
       };
     };
+    const bool rays = content_.terms == FigureTerms::rays;
     float y = top + 24.0F;
     canvas_.text({static_cast<float>(kMargin), y}, "In (iv)", 44.0F, kInk);
     float x = draw_entry(first, y, "tracked hand", [&](float at_x, float at_y) {
       canvas_.line({at_x + 18.0F, at_y}, {at_x + 72.0F, at_y}, 34.0F, colors.ghost);
     });
-    x = draw_entry(x, y, "a part's tracked skin, where its ray starts", dot(colors.start));
-    x = draw_entry(x, y, "ray out along the back of the hand", [&](float at_x, float at_y) {
-      canvas_.line({at_x + 4.0F, at_y}, {at_x + 84.0F, at_y}, 8.0F, colors.ray);
-    });
-    draw_entry(x, y, "s, where it meets the surface", dot(colors.surface_point));
+    x = draw_entry(
+        x, y,
+        rays ? "a part's tracked skin, where its ray starts" : "a part's tracked skin, sunk in",
+        dot(colors.start));
+    x = draw_entry(x, y, rays ? "ray out along the back of the hand" : "its way to where it rests",
+                   [&](float at_x, float at_y) {
+                     canvas_.line({at_x + 4.0F, at_y}, {at_x + 84.0F, at_y}, 8.0F, colors.ray);
+                   });
+    draw_entry(x, y, rays ? "s, where it meets the surface" : "s, the surface there",
+               dot(colors.surface_point));
     y += 74.0F;
-    x = draw_entry(first, y, "p_vr, where the part belongs", dot(colors.target));
+    x = draw_entry(first, y, rays ? "p_vr, where the part belongs" : "the part's joint, as drawn",
+                   dot(colors.target));
     x = draw_entry(x, y, "n, the surface's normal there", arrow(colors.normal, 7.0F));
-    draw_entry(x, y, "b, the back of the hand, which the palm's turn takes to n",
+    draw_entry(x, y,
+               rays ? "b, the back of the hand, which the palm's turn takes to n"
+                    : "b, the back of the hand, as drawn",
                arrow(colors.back, 9.0F));
     canvas_.text({first, y + 86.0F}, content_.caption, 36.0F, kQuiet);
   }

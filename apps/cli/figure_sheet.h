@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,9 +20,16 @@ struct FigureRow {
   std::vector<std::array<std::optional<draw::StagedHand>, 2>> by_method;
 };
 
+/// What the points of the last column are called.
+enum class FigureTerms : std::uint8_t {
+  rays,  ///< the paper's: rays from parts to the surface
+  skin,  ///< skin that is kept out, wherever it is
+};
+
 struct FigureContent {
   std::vector<std::string> methods;  ///< names for the columns
   std::size_t explained = 0;         ///< which of them the last column explains
+  FigureTerms terms = FigureTerms::skin;
   std::vector<FigureRow> rows;
   std::string caption;  ///< what was stroked, and how
 };

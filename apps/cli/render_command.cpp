@@ -268,6 +268,11 @@ Status run_render(RenderArguments arguments) {
   if (arguments.show.corrected == "-") {
     return misuse("CORRECTED cannot be standard input: expected a file");
   }
+  const std::optional<Vec3>& eye = arguments.camera.eye;
+  const std::optional<Vec3>& target = arguments.camera.target;
+  if (eye && target && (*eye - *target).norm() < 0.001) {
+    return misuse("--eye, --target: expected two places apart, found the same");
+  }
   if (arguments.show.recording != "-") return run_on(arguments);
   const Result<SpooledInput> spooled = SpooledInput::read();
   if (!spooled) return spooled.error();

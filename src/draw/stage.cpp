@@ -54,6 +54,7 @@ struct Stage::Impl {
   Placement placement;
   std::vector<MeshId> object_meshes;
   ObjectShape shape;
+  Weave weave = Weave::coarse;
   std::vector<Vec3f> corners;  ///< of the boxes about the object's meshes, in its own frame
   std::vector<std::string> warnings;
   Scene scene;
@@ -74,6 +75,32 @@ struct Stage::Impl {
     shape.clear();
     corners.clear();
     warnings.clear();
+  }
+
+  [[nodiscard]] Status take_object(const LoadedObject& taken, Weave as) {
+    Result<DressedObject> dressed = dress(taken, as);
+    if (!dressed) return dressed.error();
+    clear_object();
+    object = &taken;
+    weave = as;
+    warnings = std::move(dressed->warnings);
+    for (const DrawnMesh& mesh : dressed->meshes) {
+      object_meshes.push_back(renderer->add(mesh));
+      shape.add(object_meshes.back(), mesh);
+      Eigen::AlignedBox3f box;
+      for (const Vec3f& position : mesh.positions) box.extend(position);
+      for (int corner = 0; corner < 8; ++corner) {
+        corners.push_back(box.corner(static_cast<Eigen::AlignedBox3f::CornerType>(corner)));
+      }
+    }
+    return ok_status();
+  }
+
+  /// A table top of few triangles could not give way.
+  void soften() {
+    if (object == nullptr || weave == Weave::fine) return;
+    if (dynamic_cast<const PlaneSurface*>(object->surface.get()) == nullptr) return;
+    static_cast<void>(take_object(*object, Weave::fine));
   }
 
   /// Takes a hand to the renderer when it is first shown; null where there is no such mesh.
@@ -192,20 +219,8 @@ Result<Stage> Stage::create(Renderer& renderer, const HandMeshes& hands) {
 }
 
 Status Stage::set_object(const LoadedObject& object, const Placement& placement) {
-  Result<DressedObject> dressed = dress(object);
-  if (!dressed) return dressed.error();
-  impl_->clear_object();
-  impl_->object = &object;
-  impl_->warnings = std::move(dressed->warnings);
-  for (const DrawnMesh& mesh : dressed->meshes) {
-    impl_->object_meshes.push_back(impl_->renderer->add(mesh));
-    impl_->shape.add(impl_->object_meshes.back(), mesh);
-    Eigen::AlignedBox3f box;
-    for (const Vec3f& position : mesh.positions) box.extend(position);
-    for (int corner = 0; corner < 8; ++corner) {
-      impl_->corners.push_back(box.corner(static_cast<Eigen::AlignedBox3f::CornerType>(corner)));
-    }
-  }
+  const Status taken = impl_->take_object(object, Weave::coarse);
+  if (!taken) return taken;
   set_placement(placement);
   return ok_status();
 }
@@ -218,6 +233,7 @@ void Stage::set_placement(const Placement& placement) {
 }
 
 const Scene& Stage::arrange(const StageFrame& frame) {
+  if (Impl::gives_way(frame)) impl_->soften();
   impl_->start_scene();
   if (impl_->object != nullptr) impl_->shape.follow(*impl_->object);
   impl_->add_object(frame.overlays.see_through ? Look::ghost : Look::solid);
@@ -234,6 +250,8 @@ const Scene& Stage::arrange(const StageFrame& frame) {
     impl_->scene.focus = sum / count;
     impl_->scene.focus_radius_m = count == 1 ? 0.2 : 0.35;
   }
+  // Through glass a shadow would be seen on the floor, far from the skin that casts it.
+  impl_->scene.floor = !frame.overlays.see_through;
   return impl_->scene;
 }
 
@@ -242,6 +260,7 @@ const Scene& Stage::arrange_object() {
   if (impl_->object != nullptr) impl_->shape.follow(*impl_->object);
   impl_->shape.update(*impl_->renderer, impl_->placement, 0.0);
   impl_->add_object(Look::solid);
+  impl_->scene.floor = true;
   return impl_->scene;
 }
 

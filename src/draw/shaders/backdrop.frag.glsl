@@ -15,5 +15,5 @@ void main() {
       wall *= mix(vec3(1.0), shade, fade);
     }
   }
-  color = vec4(encoded(wall), 1.0);
+  color = vec4(grained(encoded(wall)), 1.0);
 }

@@ -136,5 +136,5 @@ void main() {
   s.mirror = mix(vec3(translucency > 0.0 ? 0.028 : 0.04), s.albedo, metalness);
   s.albedo *= 1.0 - metalness;
   vec2 light = received_light(at_depth);
-  color = vec4(encoded(filmed(lit(s, light.x, light.y, sheen, translucency))), 1.0);
+  color = vec4(grained(encoded(filmed(lit(s, light.x, light.y, sheen, translucency)))), 1.0);
 }
