@@ -27,10 +27,11 @@ std::string significance_mark(double p) {
   return p < 0.05 ? "*" : "n.s.";
 }
 
-std::string method_label(const Analysis& analysis, const std::string& method) {
-  if (method == analysis.methods.front()) return "without correction";
-  if (analysis.methods.size() == 2) return "with correction";
-  return "with correction: " + method;
+std::string method_label(const Analysis& analysis, const std::string& method, Language language) {
+  const bool japanese = language == Language::japanese;
+  if (method == analysis.methods.front()) return japanese ? "補正なし" : "without correction";
+  const std::string with = japanese ? "補正あり" : "with correction";
+  return analysis.methods.size() == 2 ? with : with + ": " + method;
 }
 
 }  // namespace nade::study

@@ -35,8 +35,8 @@ constexpr double kPanelGap = 18.0;
 constexpr double kPlotHeight = 350.0;
 constexpr double kKeyHeight = 40.0;
 constexpr double kTitleHeight = 24.0;
-constexpr double kFootHeight = 34.0;
-constexpr double kLineHeight = 17.0;
+constexpr double kFootHeight = 36.0;
+constexpr double kLineHeight = 19.5;
 constexpr double kLetterWidth = 7.4;
 
 /// How large everything is.
@@ -124,23 +124,34 @@ std::string footnote_of(const Sheet& sheet) {
     most = std::max(most, comparison.dropped.pairs);
   }
   const bool average = sheet.panels.front().object.empty() && sheet.data.objects.size() > 1;
+  const std::string pairs =
+      fewest == most ? fmt::format("{}", most) : fmt::format("{}-{}", fewest, most);
+  if (sheet.language == Language::japanese) {
+    return fmt::format(
+        "** p < 0.01, * p < 0.05, n.s. 有意差なし: ウィルコクソンの符号順位検定{}, 正確確率, Holm, "
+        "n = {}",
+        average ? " (各人の物体間平均)" : "", pairs);
+  }
   return fmt::format(
       "** p < 0.01, * p < 0.05, n.s. not significant: Wilcoxon signed rank{}, exact, Holm, n = {}",
-      average ? " of each person's average over the objects" : "",
-      fewest == most ? fmt::format("{}", most) : fmt::format("{} to {}", fewest, most));
+      average ? " of each person's average over the objects" : "", pairs);
 }
 
+/// The terminals take sizes of letters differently: pixels, points, and points of 96 to the inch.
 constexpr std::string_view kTerminals = R"(do for [format in "svg pdf png"] {
 if (format eq "svg") {
   set terminal svg size WIDTH,HEIGHT font "sans-serif,13" noenhanced background rgb "white"
+  LETTERS = 13/9.75
 }
 if (format eq "pdf") {
-  set terminal pdfcairo size WIDTH/96.0,HEIGHT/96.0 font "sans-serif,9.75" fontscale 1 \
-    noenhanced background rgb "white"
+  set terminal pdfcairo size WIDTH/96.0,HEIGHT/96.0 font "sans-serif,9.75" fontscale 0.75 \
+    linewidth 1.4 noenhanced background rgb "white"
+  LETTERS = 1
 }
 if (format eq "png") {
   set terminal pngcairo size 2.5*WIDTH,2.5*HEIGHT font "sans-serif,9.75" fontscale 2.5 \
     linewidth 2.5 pointscale 2.5 noenhanced background rgb "white"
+  LETTERS = 1
 }
 set output OUT.NAME.".".format
 set border 3
@@ -175,16 +186,17 @@ std::string axes_of(const Sheet& sheet, const Layout& layout) {
 }
 
 std::string labels_of(const Sheet& sheet, const Layout& layout) {
-  std::string text =
-      fmt::format("set label 1 {} at screen 0.5,{:.4f} center font \"sans-serif,8\"\n",
-                  quoted(footnote_of(sheet)), 13.0 / layout.height);
+  std::string text = fmt::format(
+      "set label 1 {} at screen 0.5,{:.4f} center font sprintf(\"sans-serif,%g\", 8*LETTERS)\n",
+      quoted(footnote_of(sheet)), 13.0 / layout.height);
   if (!sheet.data.simulated) return text;
-  return text +
-         fmt::format(
-             "set label 2 \"SIMULATED\" at graph 0.5,0.45 center rotate by 24 font "
-             "\"sans-serif,{:.0f}\" textcolor rgb \"#e2e2e2\" back\n"
-             "set label 3 \"SIMULATED data\" at screen {:.4f},{:.4f} right font \"sans-serif,9\"\n",
-             0.095 * layout.panel_width, 1.0 - 12.0 / layout.width, 1.0 - 16.0 / layout.height);
+  return text + fmt::format(
+                    "set label 2 \"SIMULATED\" at graph 0.5,0.45 center rotate by 24 font "
+                    "sprintf(\"sans-serif,%g\", {:.0f}*LETTERS) textcolor rgb \"#e2e2e2\" back\n"
+                    "set label 3 \"SIMULATED data\" at screen {:.4f},{:.4f} right font "
+                    "sprintf(\"sans-serif,%g\", 9*LETTERS)\n",
+                    0.095 * layout.panel_width, 1.0 - 12.0 / layout.width,
+                    1.0 - 16.0 / layout.height);
 }
 
 /// What one panel draws: boxes, their medians, the dots over them, the brackets above.
@@ -199,7 +211,7 @@ std::string plot_of(const Sheet& sheet, std::size_t panel) {
         "linewidth 1 notitle, \\\n",
         panel, method, look.box);
     medians += fmt::format(
-        "  DATA index 'boxes_{}_{}' using ($1-BOX/2):6:(BOX):(0) with vectors nohead "
+        "  DATA index 'boxes_{}_{}' using ($1-0.56*BOX):6:(1.12*BOX):(0) with vectors nohead "
         "linewidth 3.5 linecolor rgb '#000000' notitle, \\\n",
         panel, method);
     // Each dot on a white one, so that it is seen on the lines too.
@@ -221,8 +233,9 @@ std::string plot_of(const Sheet& sheet, std::size_t panel) {
 std::string key_of(const Sheet& sheet) {
   std::string key;
   for (std::size_t method = 0; method < sheet.analysis.methods.size(); ++method) {
-    key += fmt::format(", \\\n  keyentry with boxes {} title {}", look_of(method).box,
-                       quoted(method_label(sheet.analysis, sheet.analysis.methods[method])));
+    key += fmt::format(
+        ", \\\n  keyentry with boxes {} title {}", look_of(method).box,
+        quoted(method_label(sheet.analysis, sheet.analysis.methods[method], sheet.language)));
   }
   return key;
 }

@@ -33,7 +33,8 @@ struct Figure {
 
 /// What a method is called where people read it: "without correction" the baseline, the others
 /// "with correction", with their names where there are several.
-[[nodiscard]] std::string method_label(const Analysis& analysis, const std::string& method);
+[[nodiscard]] std::string method_label(const Analysis& analysis, const std::string& method,
+                                       Language language);
 
 /// What became of the pictures.
 struct DrawnFigure {
