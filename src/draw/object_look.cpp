@@ -22,6 +22,7 @@ constexpr float kTableThickness = 0.035F;
 constexpr float kTableCorner = 0.06F;
 constexpr float kTableEdge = 0.008F;
 constexpr float kGridStep = 0.05F;
+constexpr float kTableWeave = 0.006F;
 
 float channel_to_srgb(float c) {
   return c <= 0.0031308F ? 12.92F * c : 1.055F * std::pow(c, 1.0F / 2.4F) - 0.055F;
@@ -115,7 +116,39 @@ void add_ring(float inset, float y, const Vec2f& slope, DrawnMesh& mesh) {
   if (mesh.positions.size() > count + 1) join_rings(count, mesh);
 }
 
-DrawnMesh make_table() {
+/// The nearest point of the table's flat top.
+Vec2f onto_top(const Vec2f& point) {
+  const Vec2f inner(kTableHalfX - kTableCorner, kTableHalfZ - kTableCorner);
+  const Vec2f nearest = point.cwiseMax(-inner).cwiseMin(inner);
+  const Vec2f beyond = point - nearest;
+  const float radius = kTableCorner - kTableEdge;
+  return beyond.norm() > radius ? Vec2f(nearest + radius / beyond.norm() * beyond) : point;
+}
+
+/// The flat top as a fine grid, its corners drawn in.
+void weave_top(DrawnMesh& mesh) {
+  const Vec2f half(kTableHalfX - kTableEdge, kTableHalfZ - kTableEdge);
+  const auto columns = static_cast<std::uint32_t>(std::ceil(2.0F * half.x() / kTableWeave));
+  const auto rows = static_cast<std::uint32_t>(std::ceil(2.0F * half.y() / kTableWeave));
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  for (std::uint32_t row = 0; row <= rows; ++row) {
+    for (std::uint32_t column = 0; column <= columns; ++column) {
+      const Vec2f share(static_cast<float>(column) / static_cast<float>(columns),
+                        static_cast<float>(row) / static_cast<float>(rows));
+      const Vec2f at = onto_top(half.cwiseProduct(2.0F * share - Vec2f::Ones()));
+      mesh.positions.emplace_back(at.x(), 0.0F, at.y());
+      mesh.normals.emplace_back(Vec3f::UnitY());
+      mesh.texcoords.push_back(table_texcoord(at.x(), at.y()));
+      if (row == rows || column == columns) continue;
+      const std::uint32_t a = first + row * (columns + 1) + column;
+      const std::uint32_t below = a + columns + 1;
+      mesh.triangles.push_back({a, below, a + 1});
+      mesh.triangles.push_back({a + 1, below, below + 1});
+    }
+  }
+}
+
+DrawnMesh make_table(Weave weave) {
   constexpr int kEdgeSteps = 6;
   DrawnMesh mesh;
   mesh.positions.emplace_back(0.0F, 0.0F, 0.0F);
@@ -128,8 +161,12 @@ DrawnMesh make_table() {
   }
   add_ring(0.0F, -kTableThickness, {1.0F, 0.0F}, mesh);
   const auto count = static_cast<std::uint32_t>(rounded_rectangle(0.0F).size());
-  for (std::uint32_t i = 0; i < count; ++i) {
-    mesh.triangles.push_back({0, 1 + (i + 1) % count, 1 + i});
+  if (weave == Weave::fine) {
+    weave_top(mesh);
+  } else {
+    for (std::uint32_t i = 0; i < count; ++i) {
+      mesh.triangles.push_back({0, 1 + (i + 1) % count, 1 + i});
+    }
   }
   mesh.texture = table_texture();
   mesh.material.base_color = Color::Ones();
@@ -264,9 +301,9 @@ Color to_srgb(const Color& linear) {
   return linear.cwiseMax(0.0F).cwiseMin(1.0F).unaryExpr(&channel_to_srgb);
 }
 
-Result<DressedObject> dress(const LoadedObject& object) {
+Result<DressedObject> dress(const LoadedObject& object, Weave weave) {
   if (dynamic_cast<const PlaneSurface*>(object.surface.get()) != nullptr) {
-    return DressedObject{{make_table()}, {}};
+    return DressedObject{{make_table(weave)}, {}};
   }
   if (const auto* const ball = dynamic_cast<const SphereSurface*>(object.surface.get())) {
     return DressedObject{{make_ball(object.base.pose.position.cast<float>(),

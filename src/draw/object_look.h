@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,12 @@ struct DressedObject {
   std::vector<std::string> warnings;  ///< what could not be shown, a sentence each
 };
 
+/// How fine the triangles of large flat parts are: fine enough to be dented, or as few as will do.
+enum class Weave : std::uint8_t { coarse, fine };
+
 /// Dresses the plane as a table top, the sphere as a smooth ball, the dog in its coat, and a mesh
 /// file in its own materials.
-[[nodiscard]] Result<DressedObject> dress(const LoadedObject& object);
+[[nodiscard]] Result<DressedObject> dress(const LoadedObject& object, Weave weave = Weave::coarse);
 
 /// The meshes of a .glb, .gltf, .obj or .ply file that `load_mesh` could read, each with its
 /// material, colours and texture, in the frame that `load_mesh` gives.
