@@ -391,6 +391,29 @@ TEST_F(Cli, CorrectionSaysWhatItWasMadeWith) {
   EXPECT_EQ(frame["right"]["status"], "corrected");
 }
 
+TEST_F(Cli, ALivingObjectIsMeasuredAsItWasInEachFrame) {
+  ASSERT_EQ(nade("synth -o in.jsonl --object dog:alive --place flank --duration 3").status, 0);
+  ASSERT_EQ(nade("correct in.jsonl -o out.jsonl --object dog:alive").status, 0);
+  const auto lines = lines_of(read_file(path("in.jsonl")));
+  const auto header = nlohmann::json::parse(lines_of(read_file(path("out.jsonl")))[0]);
+  EXPECT_EQ(header["object"], "dog:alive");
+  EXPECT_EQ(header["animation_start"], 0);
+  // A recording that begins later knows still when the dog began.
+  std::string late = lines[0] + '\n';
+  for (std::size_t i = 91; i < lines.size(); ++i) late += lines[i] + '\n';
+  write_file(path("late.jsonl"), late);
+  for (const std::string tracked : {"in.jsonl", "late.jsonl"}) {
+    const Ran ran = nade("measure " + tracked + " out.jsonl --json -");
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    const std::string key = "\"penetration_max_mm\": ";
+    const std::size_t at = ran.out.find(key);
+    ASSERT_NE(at, std::string::npos) << ran.out;
+    EXPECT_LT(std::stod(ran.out.substr(at + key.size())), 1.0) << tracked;
+  }
+  EXPECT_EQ(nade("correct in.jsonl -o out.jsonl --object plane:alive").status, 2);
+  EXPECT_EQ(nade("correct in.jsonl -o out.jsonl --object dog:alive:sleep").status, 2);
+}
+
 TEST_F(Cli, TheSameResultOnEveryRun) {
   make_stroke("a.jsonl", "--object dog --noise leap --seed 7");
   make_stroke("b.jsonl", "--object dog --noise leap --seed 7");

@@ -133,6 +133,27 @@ TEST_F(RecordedTest, PlayingCorrectsAsTheCorrectorDoes) {
   }
 }
 
+TEST_F(RecordedTest, ALivingObjectMovesWithTheRecording) {
+  make_stroke("a.jsonl", "dog:alive");
+  Session session(session_setup());
+  ASSERT_TRUE(session.show_object("plane").ok());
+  ASSERT_TRUE(session.open_clip(path("a.jsonl")).ok());
+  begin(session);
+  session.playback().loop = false;
+  while (session.playback().playing) session.advance(kStep_s, {});
+  Result<LoadedObject> dog = load_object("dog:alive");
+  ASSERT_TRUE(dog.ok());
+  for (const std::size_t index : {session.playback().index, std::size_t{40}}) {
+    session.seek(index);
+    dog->move_to(1e-9 * static_cast<double>(session.clip()->time_ns(index)));
+    EXPECT_TRUE(session.loaded().soup->vertices == dog->soup->vertices) << index;
+  }
+  session.close_clip();
+  const auto before = session.loaded().soup->vertices;
+  session.advance(kStep_s, {});
+  EXPECT_FALSE(session.loaded().soup->vertices == before) << "with the mouse's hand, too";
+}
+
 TEST_F(RecordedTest, SeeksStepsAndLoops) {
   make_stroke("a.jsonl", "plane");
   Session session(session_setup());

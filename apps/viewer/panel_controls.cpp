@@ -15,6 +15,7 @@ using Lit = UiKit::Lit;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr float kGap = 6.0F;
+constexpr const char* kAlive = ":alive";
 
 Lit lit(bool on) { return on ? Lit::yes : Lit::no; }
 
@@ -22,6 +23,24 @@ Lit lit(bool on) { return on ? Lit::yes : Lit::no; }
 float in_row(int count) {
   const float whole = ImGui::GetContentRegionAvail().x;
   return std::floor((whole - kGap * static_cast<float>(count - 1)) / static_cast<float>(count));
+}
+
+/// Whether the object moves by itself, and how soft it is.
+void nature_controls(UiKit& ui, Desk& desk, const std::string& still) {
+  if (still == "dog" || still.ends_with(".glb") || still.ends_with(".gltf")) {
+    bool alive = desk.session.loaded().animation.has_value();
+    if (ui.check("object:alive", "alive", alive, "It moves as its file's animation says")) {
+      desk.show_object(alive ? still + kAlive : still);
+    }
+  }
+  CorrectorOptions options = desk.session.corrector();
+  if (options.method != Method::nade) return;
+  float softness_mm = static_cast<float>(1e3 * options.settle.softness_m);
+  if (ui.slider("object:soft", "soft", softness_mm, 0.0F, 20.0F, "%.0f mm",
+                "How far the skin sinks into the object, which gives way")) {
+    options.settle.softness_m = 1e-3 * static_cast<double>(softness_mm);
+    desk.session.set_corrector(options);
+  }
 }
 
 void object_section(UiKit& ui, Desk& desk) {
@@ -33,14 +52,15 @@ void object_section(UiKit& ui, Desk& desk) {
   static constexpr std::array<Choice, 3> kChoices{{
       {"plane", "A table top"},
       {"sphere", "A ball of 30 cm"},
-      {"dog", "A dog that stands still"},
+      {"dog", "A dog"},
   }};
   const std::string& spec = desk.session.loaded().spec;
+  const std::string still = spec.substr(0, spec.find(kAlive));
   const float width = in_row(3);
   for (const Choice& choice : kChoices) {
     if (&choice != kChoices.data()) ImGui::SameLine(0.0F, kGap);
     const std::string name = std::string("object:") + choice.spec;
-    if (ui.button(name, choice.spec, lit(spec == choice.spec), width,
+    if (ui.button(name, choice.spec, lit(still == choice.spec), width,
                   fmt::format("{}  (O: the next object)", choice.tip))) {
       desk.show_object(choice.spec);
     }
@@ -50,6 +70,7 @@ void object_section(UiKit& ui, Desk& desk) {
   ImGui::TextDisabled("%s", file ? std::filesystem::path(spec).filename().c_str()
                                  : "or drop a mesh file onto the window");
   ImGui::PopFont();
+  nature_controls(ui, desk, still);
 }
 
 void method_section(UiKit& ui, Desk& desk) {

@@ -224,6 +224,7 @@ void Session::advance(double step_s, const Aim& aim) {
   }
   if (!loaded_) return;
   mouse_time_ns_ += std::llround(1e9 * step_s);
+  loaded_->move_to(1e-9 * static_cast<double>(mouse_time_ns_));
   const HandPose tracked = mouse_hand_.update(object(), aim, step_s);
   hands_[1 - index_of(tracked.side)].reset();
   correct(tracked, mouse_time_ns_, Measured::yes);
@@ -255,6 +256,7 @@ void Session::advance_clip(double step_s) {
 
 void Session::show_frame(std::size_t index, Measured measured) {
   const ClipFrame frame = clip_->frame(index);
+  loaded_->move_to(1e-9 * static_cast<double>(clip_->time_ns(index)));
   for (std::size_t side = 0; side < 2; ++side) {
     if (!frame.hands[side]) {
       hands_[side].reset();

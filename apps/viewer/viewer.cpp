@@ -172,6 +172,8 @@ void Viewer::draw_scene(int window_height, unsigned framebuffer) {
   frame.hands = session_.hands();
   frame.shown = desk_.shown;
   frame.overlays = desk_.overlays;
+  const CorrectorOptions& corrector = session_.corrector();
+  if (corrector.method == Method::nade) frame.softness_m = corrector.settle.softness_m;
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glDisable(GL_SCISSOR_TEST);
   glClearColor(0.13F, 0.13F, 0.135F, 1.0F);
