@@ -12,11 +12,11 @@ namespace {
 
 /// Skin that one bone leads is cut every so far along the bone, then until no piece is wider.
 constexpr double kSegment_m = 0.014;
-constexpr double kWidest_m = 0.024;
+constexpr double kWidest_m = 0.012;
 /// Where all of a pad's skin faces one way, its middle lies this deep in the flesh.
 constexpr double kMiddleDepth_m = 0.006;
 /// A skin point sticks out if it is the farthest in one of so many directions.
-constexpr int kDirections = 40;
+constexpr int kDirections = 24;
 
 // What belongs to a part's patch: as in the metric `part_gap`.
 constexpr double kPalmPatch_m = 0.022;

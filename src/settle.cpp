@@ -12,6 +12,8 @@ namespace {
 
 // What the tracked pose is worth. A shift of 2 cm costs as much as bending a knuckle by a radian.
 constexpr double kShiftStiffness = 1.0 / (0.02 * 0.02);
+/// Along the surface, where the person's own hand says how far.
+constexpr double kSlideStiffness = 3.0 * kShiftStiffness;
 constexpr double kTurnStiffness = 10.0;
 /// About the surface's normal: the heading is the person's own.
 constexpr double kSpinStiffness = 40.0;
@@ -20,23 +22,24 @@ constexpr double kSpinStiffness = 40.0;
 const DigitFreedoms kFingerStiffness{4.0, 1.0, 4.0, 6.0};
 const DigitFreedoms kThumbStiffness{1.0, 1.0, 2.0, 2.0};
 
-/// Skin farther than this from its plane, and than the hand has moved, does not come to touch it
-/// in the frame.
-constexpr double kRowReach_m = 0.005;
+/// Skin farther than this from its plane, and than this share of what the hand has moved, does not
+/// come to touch it in the frame.
+constexpr double kRowReach_m = 0.004;
+constexpr double kRowReachOfMotion = 0.4;
 
 // How fast a correction may change where nothing pushes: so many times the tracked hand's own
 // motion, and a little more, so that a hand at rest is released as well.
 constexpr double kShiftRate = 1.5;
 constexpr double kTurnRate = 0.6;
 constexpr double kBendRate = 0.6;
-constexpr double kFreeRate_mps = 0.027;
+constexpr double kFreeRate_mps = 0.012;
 constexpr double kTurnLever_m = 0.10;
 constexpr double kBendLever_m = 0.07;
 constexpr double kWallStiffness = 1e5;
 /// Turns and bends follow with this time constant.
-constexpr double kViscosity_s = 0.022;
+constexpr double kViscosity_s = 0.03;
 /// And shifts along the surface with this.
-constexpr double kSlideTime_s = 0.088;
+constexpr double kSlideTime_s = 0.05;
 /// The direction of the object's push is smoothed over this time.
 constexpr double kPushTime_s = 0.07;
 /// The drawn hand strays along the surface by no more than this share of the depth.
@@ -58,6 +61,7 @@ constexpr double kSamePlaneNextFrame_m = 0.00002;
 constexpr double kDeepest_m = 0.3;
 constexpr double kLongestTurn_rad = 0.3;
 constexpr double kPalmThickness_m = 0.02;
+
 Vec3 along_surface(const Vec3& vector, const Vec3& normal) {
   return vector - normal.dot(vector) * normal;
 }
@@ -186,7 +190,7 @@ void Settling::start() {
       options_.softness_m * (1.0 - std::exp(-memory_.height_m / options_.softness_depth_m));
   push_ = memory_.push;
   correction_ = memory_.correction;
-  search_.row_reach_m = fresh_ ? kDeepest_m : kRowReach_m + motion_m_;
+  search_.row_reach_m = fresh_ ? kDeepest_m : kRowReach_m + kRowReachOfMotion * motion_m_;
   if (fresh_) start_outside();
   search_.frame = surface_frame(push_, tracked[Joint::palm].rotation);
   take_step(HandFreedoms::Zero());  // into the range of this frame's pose
@@ -232,7 +236,7 @@ SettleProblem Settling::problem() const {
   problem.rows = memory_.rows;
 
   HandFreedoms& back = problem.back.stiffness;
-  back.head<3>().setConstant(kShiftStiffness);
+  back.head<3>() << kSlideStiffness, kSlideStiffness, kShiftStiffness;
   back.segment<3>(3) << kTurnStiffness, kTurnStiffness, kSpinStiffness;
   for (std::size_t d = 0; d < kDigitCount; ++d) {
     back.segment<4>(first_freedom(d)) =

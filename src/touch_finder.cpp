@@ -13,7 +13,7 @@ constexpr double kMargin_m = 0.0002;
 constexpr double kPullRest_m = 0.001;
 constexpr double kPullFade_m = 0.01;
 constexpr double kPullStart_m = 0.001;
-constexpr double kPullFull_m = 0.025;
+constexpr double kPullFull_m = 0.02;
 constexpr double kPullStiffness = 1.0 / (0.006 * 0.006);
 
 /// A pad that is too far is not looked at again until it could have come so much nearer.
