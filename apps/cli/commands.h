@@ -18,8 +18,12 @@ void add_figure(CLI::App& app, Action& action);
 void add_inspect(CLI::App& app, Action& action);
 void add_measure(CLI::App& app, Action& action);
 void add_render(CLI::App& app, Action& action);
+void add_study(CLI::App& app, Action& action);
 void add_synth(CLI::App& app, Action& action);
 void add_view(CLI::App& app, Action& action);
 void add_xr(CLI::App& app, Action& action);
+
+/// A part of `nade study`.
+void add_study_analyse(CLI::App& study, Action& action);
 
 }  // namespace nade::cli

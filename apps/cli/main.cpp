@@ -27,6 +27,9 @@ int run(int argc, char** argv) {
   nade::cli::add_convert(app, action);
   nade::cli::add_inspect(app, action);
   nade::cli::add_bench(app, action);
+#ifdef NADE_CLI_STUDY
+  nade::cli::add_study(app, action);
+#endif
 #ifdef NADE_CLI_DRAW
   nade::cli::add_render(app, action);
   nade::cli::add_figure(app, action);

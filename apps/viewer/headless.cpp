@@ -62,6 +62,7 @@ Status run_headless(ViewerSetup setup, const Run& run) {
     const Result<std::vector<Event>> events = script.next(headless->viewer().ui());
     if (!events) return events.error();
     headless->frame(*events);
+    if (headless->viewer().wants_to_close()) break;
   }
   return run.screenshot ? draw::save_png(*run.screenshot, headless->picture()) : ok_status();
 }

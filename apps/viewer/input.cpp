@@ -6,10 +6,10 @@ namespace nade::viewer {
 namespace {
 
 constexpr std::array<std::string_view, kKeyCount> kNames{
-    "a",    "b",     "c",  "d",    "e",    "f",   "g",     "h",      "k",     "l",   "m",
-    "o",    "q",     "r",  "s",    "t",    "v",   "w",     "x",      "z",     "1",   "2",
-    "3",    "4",     "5",  "-",    "+",    ",",   ".",     "?",      "space", "tab", "escape",
-    "left", "right", "up", "down", "home", "end", "shift", "control"};
+    "a",      "b",    "c",     "d",  "e",    "f",    "g",   "h",     "k",      "l",     "m",
+    "o",      "p",    "q",     "r",  "s",    "t",    "v",   "w",     "x",      "z",     "1",
+    "2",      "3",    "4",     "5",  "-",    "+",    ",",   ".",     "?",      "space", "tab",
+    "escape", "left", "right", "up", "down", "home", "end", "shift", "control"};
 
 }  // namespace
 
@@ -21,6 +21,7 @@ std::optional<Key> key_from_name(std::string_view name) {
 
 void Input::start_frame(double seconds) {
   step_s = seconds;
+  elapsed_s = seconds;
   moved_x = 0.0;
   moved_y = 0.0;
   wheel = 0.0;

@@ -25,6 +25,7 @@ enum class Key : std::uint8_t {
   l,
   m,
   o,
+  p,
   q,
   r,
   s,
@@ -55,7 +56,7 @@ enum class Key : std::uint8_t {
   shift,
   control,
 };
-inline constexpr std::size_t kKeyCount = 41;
+inline constexpr std::size_t kKeyCount = 42;
 
 /// A key by its name in a script: "a", "1", "space", "?", …
 [[nodiscard]] std::optional<Key> key_from_name(std::string_view name);
@@ -80,7 +81,8 @@ struct Event {
 struct Input {
   int width = 1280;
   int height = 720;
-  double step_s = 1.0 / 60.0;  ///< since the last frame
+  double step_s = 1.0 / 60.0;     ///< since the last frame, as far as things move
+  double elapsed_s = 1.0 / 60.0;  ///< the same by the clock, however long it took
   double x = 0.0;
   double y = 0.0;
   bool inside = false;  ///< the pointer is over the window

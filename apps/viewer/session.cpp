@@ -273,6 +273,7 @@ void Session::correct(const HandPose& tracked, std::int64_t time_ns, Measured me
   const auto start = std::chrono::steady_clock::now();
   const CorrectedHand& corrected = correctors_[side].update(tracked, where, time_ns);
   const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
+  corrected_[side] = &corrected;
   if (!scales_[side]) scales_[side] = hand_scale(setup_.meshes[side], tracked);
   hands_[side] = draw::StagedHand{tracked, corrected.pose, corrected.contacts, scales_[side]};
   if (measured == Measured::no) return;

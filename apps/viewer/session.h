@@ -87,6 +87,10 @@ class Session {
   [[nodiscard]] const std::array<std::optional<draw::StagedHand>, 2>& hands() const {
     return hands_;
   }
+  /// The same as the corrector gave them, by index_of(Handedness); null where there is none.
+  [[nodiscard]] const CorrectedHand* corrected(std::size_t side) const {
+    return hands_[side] ? corrected_[side] : nullptr;
+  }
   [[nodiscard]] const LoadedObject& loaded() const { return *loaded_; }
   [[nodiscard]] bool has_object() const { return loaded_ != nullptr; }
   [[nodiscard]] std::shared_ptr<const LoadedObject> shared_object() const { return loaded_; }
@@ -125,6 +129,7 @@ class Session {
   std::array<HandCorrector, 2> correctors_;
   std::array<std::optional<double>, 2> scales_{};
   std::array<std::optional<draw::StagedHand>, 2> hands_{};
+  std::array<const CorrectedHand*, 2> corrected_{};  ///< the correctors' own
   Figures figures_;
   std::vector<std::string> notices_;
 };

@@ -15,6 +15,7 @@ constexpr double kTipAfter_s = 0.45;
 constexpr float kTipWidth = 300.0F;
 constexpr float kTextSize = 15.0F;
 constexpr float kSmallSize = 12.5F;
+constexpr float kLargeSize = 21.0F;
 constexpr const char* kFontFolder = "/usr/share/fonts/truetype/dejavu/";
 
 ImVec4 grey(float value) { return {value, value, value * 1.04F, 1.0F}; }
@@ -66,9 +67,27 @@ ImFont* add_font(const char* file, float size) {
   return fonts.AddFontDefault();
 }
 
+/// Adds Japanese letters to the font that was added last; false where the system has none.
+bool add_japanese(float size) {
+  static constexpr std::array<const char*, 4> kFiles{
+      "/usr/share/fonts/opentype/ipafont-gothic/ipag.ttf",
+      "/usr/share/fonts/truetype/fonts-japanese-gothic.ttf",
+      "/usr/share/fonts/opentype/noto/NotoSansCJK-Regular.ttc",
+      "/usr/share/fonts/truetype/vlgothic/VL-Gothic-Regular.ttf"};
+  ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
+  ImFontConfig config;
+  config.MergeMode = true;
+  for (const char* file : kFiles) {
+    if (!std::filesystem::exists(file)) continue;
+    const ImWchar* const ranges = fonts.GetGlyphRangesJapanese();
+    if (fonts.AddFontFromFileTTF(file, size, &config, ranges) != nullptr) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
-Result<std::unique_ptr<UiKit>> UiKit::create(float scale) {
+Result<std::unique_ptr<UiKit>> UiKit::create(float scale, Letters letters) {
   std::unique_ptr<UiKit> kit(new UiKit);
   kit->scale_ = scale;
   IMGUI_CHECKVERSION();
@@ -79,16 +98,24 @@ Result<std::unique_ptr<UiKit>> UiKit::create(float scale) {
   kit->normal_ = add_font("DejaVuSans.ttf", scale * kTextSize);
   kit->small_ = add_font("DejaVuSans.ttf", scale * kSmallSize);
   kit->bold_ = add_font("DejaVuSans-Bold.ttf", scale * kTextSize);
+  kit->large_ = add_font("DejaVuSans.ttf", scale * kLargeSize);
+  if (letters == Letters::japanese && !add_japanese(scale * kLargeSize)) {
+    return Error{
+        ErrorCode::not_found,
+        "no font with Japanese letters was found: install fonts-ipafont-gothic (Debian), or "
+        "run in English: --language en"};
+  }
   io.FontGlobalScale = 1.0F / scale;  // sharp letters in a coordinate system of points
   set_style();
   if (!ImGui_ImplOpenGL3_Init("#version 450 core")) {
     return Error{ErrorCode::not_found, "the window's controls need the library libGL.so.1"};
   }
+  kit->ready_ = true;
   return kit;
 }
 
 UiKit::~UiKit() {
-  ImGui_ImplOpenGL3_Shutdown();
+  if (ready_) ImGui_ImplOpenGL3_Shutdown();
   ImGui::DestroyContext();
 }
 
@@ -132,7 +159,7 @@ void UiKit::explain(std::string_view name, std::string_view tip) {
   const ImVec2 high = ImGui::GetItemRectMax();
   widgets_.push_back(
       {std::string(name), scale_ * low.x, scale_ * low.y, scale_ * high.x, scale_ * high.y});
-  if (!ImGui::IsItemHovered()) return;
+  if (tip.empty() || !ImGui::IsItemHovered()) return;
   hovered_now_ = true;
   if (hovered_ != name) {
     hovered_ = name;

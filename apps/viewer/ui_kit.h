@@ -26,9 +26,11 @@ struct Widget {
 /// events so that a script does exactly what a person does.
 class UiKit {
  public:
+  enum class Letters { latin, japanese };
   /// `scale`: pixels of ours for each of the size that controls are laid out in, > 0. The error
-  /// says what the context lacks.
-  [[nodiscard]] static Result<std::unique_ptr<UiKit>> create(float scale);
+  /// says what the context, or the system's fonts, lack.
+  [[nodiscard]] static Result<std::unique_ptr<UiKit>> create(float scale,
+                                                             Letters letters = Letters::latin);
   UiKit(const UiKit&) = delete;
   UiKit& operator=(const UiKit&) = delete;
   ~UiKit();
@@ -39,7 +41,7 @@ class UiKit {
   /// Whether the pointer is the controls' business, as of `begin`.
   [[nodiscard]] bool takes_pointer() const;
 
-  /// Names the widget that was just made, for scripts, and gives it a tooltip.
+  /// Names the widget that was just made, for scripts, and gives it a tooltip, where there is one.
   void explain(std::string_view name, std::string_view tip);
   /// A push button, lit while it is the one chosen.
   enum class Lit { no, yes };
@@ -56,14 +58,18 @@ class UiKit {
   [[nodiscard]] float scale() const { return scale_; }
   [[nodiscard]] ImFont* small_font() const { return small_; }
   [[nodiscard]] ImFont* bold_font() const { return bold_; }
+  /// Larger letters, the only ones that may be Japanese.
+  [[nodiscard]] ImFont* large_font() const { return large_; }
 
  private:
   UiKit() = default;
 
+  bool ready_ = false;  ///< has what it draws with
   float scale_ = 1.0F;
   ImFont* normal_ = nullptr;
   ImFont* small_ = nullptr;
   ImFont* bold_ = nullptr;
+  ImFont* large_ = nullptr;
   std::vector<Widget> widgets_;
   std::vector<Widget> last_widgets_;
   std::string hovered_;

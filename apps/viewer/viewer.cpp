@@ -30,6 +30,13 @@ Viewport in_pixels(const Viewport& laid_out, const Input& input, float scale) {
   return viewport;
 }
 
+void clear(unsigned framebuffer) {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  glDisable(GL_SCISSOR_TEST);
+  glClearColor(0.13F, 0.13F, 0.135F, 1.0F);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
 }  // namespace
 
 Viewer::Viewer(ViewerSetup setup, draw::Renderer renderer)
@@ -39,7 +46,8 @@ Viewer::Viewer(ViewerSetup setup, draw::Renderer renderer)
             .shown = setup.shown,
             .overlays = setup.overlays,
             .notices = {}},
-      renderer_(std::move(renderer)) {
+      renderer_(std::move(renderer)),
+      study_(std::move(setup.study)) {
   if (setup.recording) {
     press_at_first_m_ = setup.press_m;
   } else if (setup.press_m) {
@@ -58,7 +66,10 @@ Result<std::unique_ptr<Viewer>> Viewer::create(ViewerSetup setup) {
   Result<draw::Stage> stage = draw::Stage::create(viewer->renderer_, viewer->session_.meshes());
   if (!stage) return stage.error();
   viewer->stage_.emplace(std::move(stage).value());
-  Result<std::unique_ptr<UiKit>> ui = UiKit::create(scale);
+  const bool in_japanese =
+      viewer->study_ && viewer->study_->language() == study::Language::japanese;
+  Result<std::unique_ptr<UiKit>> ui =
+      UiKit::create(scale, in_japanese ? UiKit::Letters::japanese : UiKit::Letters::latin);
   if (!ui) return ui.error();
   viewer->ui_ = std::move(ui).value();
   const Status shown = viewer->session_.show_object(object.value_or("dog"), placement);
@@ -73,6 +84,7 @@ Result<std::unique_ptr<Viewer>> Viewer::create(ViewerSetup setup) {
 }
 
 void Viewer::frame(const Input& input, unsigned framebuffer, Drawing drawing) {
+  if (study_) return frame_of_study(input, framebuffer, drawing);
   const Layout layout = scaled(input, *ui_, desk_.panels);
   viewport_ = in_pixels(layout.scene, input, ui_->scale());
   ui_->begin(input);
@@ -103,6 +115,30 @@ void Viewer::frame(const Input& input, unsigned framebuffer, Drawing drawing) {
   }
   camera_ = desk_.camera.camera(viewport_, followed, input.step_s);
   if (drawing == Drawing::all) draw_scene(input.height, framebuffer);
+  ui_->end(framebuffer);
+}
+
+void Viewer::frame_of_study(const Input& input, unsigned framebuffer, Drawing drawing) {
+  viewport_ = {0, 0, input.width, input.height};
+  ui_->begin(input);
+  study_->draw(*ui_, input);
+  draw_notices(*ui_, desk_, scaled(input, *ui_, false));
+  study_->take_keys(input);
+  take_pointer(input);
+  study_->prepare(desk_);
+  const bool shown = study_->shows_object();
+  if (shown) session_.advance(input.step_s, aim(input));
+  study_->go_on(session_, camera_.pose, input);
+  for (const std::string& notice : session_.take_notices()) desk_.tell(notice);
+  dress_object();
+  camera_ = desk_.camera.camera(viewport_, std::nullopt, input.step_s);
+  if (drawing == Drawing::all) {
+    if (shown) {
+      draw_scene(input.height, framebuffer);
+    } else {
+      clear(framebuffer);
+    }
+  }
   ui_->end(framebuffer);
 }
 
@@ -174,10 +210,7 @@ void Viewer::draw_scene(int window_height, unsigned framebuffer) {
   frame.overlays = desk_.overlays;
   const CorrectorOptions& corrector = session_.corrector();
   if (corrector.method == Method::nade) frame.softness_m = corrector.settle.softness_m;
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  glDisable(GL_SCISSOR_TEST);
-  glClearColor(0.13F, 0.13F, 0.135F, 1.0F);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  clear(framebuffer);
   draw::Target target;
   target.framebuffer = framebuffer;
   target.x = viewport_.x;

@@ -10,6 +10,7 @@
 #include "nade/draw/renderer.h"
 #include "panels.h"
 #include "script.h"
+#include "study_desk.h"
 #include "ui_kit.h"
 
 namespace nade::viewer {
@@ -24,6 +25,8 @@ struct ViewerSetup {
   draw::Overlays overlays;
   draw::Shown shown = draw::Shown::corrected;
   float scale = 1.0F;  ///< of controls, for screens with small pixels
+  /// A study in place of everything else: it says what is shown.
+  std::shared_ptr<StudyDesk> study;
 };
 
 /// Whether a frame's scene is drawn; what happens in it is the same.
@@ -42,6 +45,9 @@ class Viewer {
   /// (0: the window).
   void frame(const Input& input, unsigned framebuffer, Drawing drawing = Drawing::all);
 
+  /// Whether there is nothing more to show.
+  [[nodiscard]] bool wants_to_close() const { return study_ && study_->closed(); }
+
   [[nodiscard]] Session& session() { return session_; }
   [[nodiscard]] Desk& desk() { return desk_; }
   [[nodiscard]] const UiKit& ui() const { return *ui_; }
@@ -54,6 +60,7 @@ class Viewer {
 
  private:
   Viewer(ViewerSetup setup, draw::Renderer renderer);
+  void frame_of_study(const Input& input, unsigned framebuffer, Drawing drawing);
   void take_pointer(const Input& input);
   [[nodiscard]] Aim aim(const Input& input) const;
   void dress_object();
@@ -70,6 +77,7 @@ class Viewer {
   std::optional<double> press_at_first_m_;
   draw::Camera camera_;
   Viewport viewport_;
+  std::shared_ptr<StudyDesk> study_;
   std::optional<Button> dragging_;  ///< a button that went down over the scene
 };
 

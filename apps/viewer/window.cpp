@@ -196,6 +196,7 @@ Status loop(GLFWwindow* window, Viewer& viewer, const Run& run, Input& input) {
   for (std::size_t i = 0; glfwWindowShouldClose(window) == 0; ++i) {
     const double now_s = glfwGetTime();
     input.start_frame(scripted ? kFixedStep_s : std::clamp(now_s - before_s, 1e-4, kLongestStep_s));
+    if (!scripted) input.elapsed_s = now_s - before_s;
     before_s = now_s;
     if (!scripted && i == kFramesToJudge && now_s - start_s > kFramesToJudge * kSlowFrame_s) {
       viewer.desk().coarse = true;
@@ -210,6 +211,7 @@ Status loop(GLFWwindow* window, Viewer& viewer, const Run& run, Input& input) {
       continue;
     }
     viewer.frame(input, 0);
+    if (viewer.wants_to_close()) break;
     if (run.frames && i + 1 >= *run.frames) {
       if (!run.screenshot) return ok_status();
       return draw::save_png(*run.screenshot, read_back(0, input.width, input.height));

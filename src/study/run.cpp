@@ -89,11 +89,12 @@ MotionFiles StudyRun::Impl::files(const RunFrame& frame) const {
   Json about{{"participant", store.options().participant},
              {"trial", scene.trial},
              {"attempt", scene.attempt}};
-  if (store.options().origin == Origin::simulated) about["simulated"] = "SIMULATED";
+  const bool invented = store.options().origin == Origin::simulated;
+  if (invented) about["simulated"] = "SIMULATED";
   MotionFiles files;
   files.tracked_path = stem + ".tracked.jsonl.gz";
   files.corrected_path = stem + ".corrected.jsonl.gz";
-  files.tracked_header = {options.source, store.now(), options.hand_scale_known,
+  files.tracked_header = {options.source, invented ? "" : store.now(), options.hand_scale_known,
                           Json{{"study", about}}.dump()};
   const std::string placing =
       with_placing(files.tracked_header.unknown_json, ObjectPlacing{scene.spec, frame.object});
@@ -171,6 +172,8 @@ void StudyRun::stop(std::int64_t now_ns) {
   impl_->keep_events();
   impl_->recorder.drain();
 }
+
+void StudyRun::drain() { impl_->recorder.drain(); }
 
 StudyState StudyRun::state() const { return impl_->session.state(); }
 bool StudyRun::over() const { return impl_->session.over(); }

@@ -135,8 +135,9 @@ bool StudySession::over() const {
 }
 
 double StudySession::remaining_s() const {
-  const double elapsed_s = kNanosecond_s * static_cast<double>(now_ns_ - since_ns_);
-  return std::max(0.0, length_s() - elapsed_s);
+  // In whole nanoseconds, so that who waits for what remains has waited long enough.
+  const std::int64_t left_ns = std::llround(length_s() / kNanosecond_s) - (now_ns_ - since_ns_);
+  return kNanosecond_s * static_cast<double>(std::max<std::int64_t>(left_ns, 0));
 }
 
 /// How long the state lasts by itself.
@@ -295,10 +296,13 @@ void StudySession::set_scene() {
   const Trial trial = current();
   scene_.trial = trial.number;
   scene_.attempt = practising() ? practices_ : progress_.attempts[trial_];
-  if (state_ != StudyState::countdown && state_ != StudyState::stroking) return;
-  scene_.object = trial.object;
+  const bool strokes = state_ == StudyState::countdown || state_ == StudyState::stroking;
+  if (!strokes && state_ != StudyState::ready) return;
   const StudyObject* const object = find_object(plan_, trial.object);
-  if (object != nullptr) scene_.spec = object->spec;
+  if (object != nullptr) scene_.coming_spec = object->spec;
+  if (!strokes) return;
+  scene_.object = trial.object;
+  scene_.spec = scene_.coming_spec;
   scene_.method = trial.method;
   scene_.recording = state_ == StudyState::stroking && !practising();
 }

@@ -60,6 +60,8 @@ class StudyRun {
   void repeat(std::int64_t now_ns);
   void skip(const std::string& reason, std::int64_t now_ns);
   void stop(std::int64_t now_ns);
+  /// Waits until the motion so far is written; for who does not live in real time.
+  void drain();
 
   [[nodiscard]] StudyState state() const;
   [[nodiscard]] bool over() const;

@@ -27,6 +27,8 @@ enum class StudyState : std::uint8_t {
 struct StudyScene {
   std::string object;  ///< by its name in the plan; empty: none is shown
   std::string spec;    ///< the same as `load_object` takes it
+  /// Of the trial that is coming or goes on: to be loaded in time. Empty where none is.
+  std::string coming_spec;
   /// How the hands are corrected that are drawn; `none` while no object is shown.
   Method method = Method::none;
   bool recording = false;   ///< whether motion is kept

@@ -1,0 +1,208 @@
+#include "study_run.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <utility>
+
+#include "console.h"
+#ifdef NADE_CLI_VIEWER
+#include <fstream>
+#include <iterator>
+
+#include "method_options.h"
+#include "nade/eval/synth.h"
+#include "picture_options.h"
+#include "window.h"
+#endif
+
+namespace nade::cli {
+namespace {
+
+#ifdef NADE_CLI_VIEWER
+
+/// Of a study in a window.
+struct DesktopArguments {
+  HandFiles hands;
+  PictureSize size;
+  bool headless = false;
+  std::optional<std::size_t> frames;
+  std::optional<std::string> screenshot;
+  std::optional<std::string> script;
+};
+
+/// Without a window a study ends by itself; this is for one that nobody answers.
+constexpr std::size_t kFramesMax = 10'000'000;
+
+Result<viewer::Run> viewer_run(const DesktopArguments& arguments) {
+  viewer::Run run;
+  run.width = arguments.size.width;
+  run.height = arguments.size.height;
+  run.frames = arguments.frames;
+  if (arguments.headless && !run.frames) run.frames = kFramesMax;
+  run.screenshot = arguments.screenshot;
+  if (!arguments.script) return run;
+  std::ifstream file(*arguments.script, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file) {
+    return Error{ErrorCode::not_found, fmt::format("{}: cannot be read", *arguments.script)};
+  }
+  Result<std::vector<viewer::ScriptedStep>> script = viewer::parse_script(text, *arguments.script);
+  if (!script) return script.error();
+  run.script = std::move(script).value();
+  return run;
+}
+
+Status run_on_desktop(const StudyRunArguments& study, const DesktopArguments& arguments) {
+  const Result<viewer::Run> run = viewer_run(arguments);
+  if (!run) return run.error();
+  Result<draw::HandMeshes> hands = load_hands(arguments.hands);
+  if (!hands) return hands.error();
+  const Result<HandPose> relaxed = load_relaxed_hand(Handedness::right);
+  if (!relaxed) return relaxed.error();
+  Result<std::unique_ptr<study::StudyRun>> opened = open_study(study, {"mouse", false});
+  if (!opened) return opened.error();
+  viewer::ViewerSetup setup;
+  setup.object = (*opened)->session().plan().objects.front().spec;
+  setup.study = std::make_shared<viewer::StudyDesk>(std::move(opened).value(), study.speed);
+  MethodOptions method;
+  method.corrector.method = Method::nade;
+  setup.session.corrector = options_of(method);
+  use_own_hands(arguments.hands, *hands, setup.session.corrector);
+  setup.session.meshes = std::move(hands).value();
+  setup.session.relaxed = *relaxed;
+  const auto desk = setup.study;
+  const Status shown = arguments.headless ? viewer::run_headless(std::move(setup), *run)
+                                          : viewer::run_window(std::move(setup), *run);
+  const Status kept = close_study(desk->run());
+  return shown ? kept : shown;
+}
+
+void add_desktop_options(CLI::App& command, DesktopArguments& arguments) {
+  add_hand_options(command, arguments.hands);
+  add_size_option(command, arguments.size);
+  command.add_flag("--headless", arguments.headless,
+                   "on the desktop without a display, for tests: with --script");
+  command.add_option("--frames", arguments.frames, "ends after so many frames")
+      ->type_name("N")
+      ->check(CLI::Range(std::size_t{1}, kFramesMax));
+  command.add_option("--screenshot", arguments.screenshot, "writes the last frame as a PNG file")
+      ->type_name("FILE");
+  command
+      .add_option("--script", arguments.script,
+                  "does by itself what the lines of a file say (docs/viewer.md)")
+      ->type_name("FILE");
+}
+
+#else
+
+struct DesktopArguments {};
+
+Status run_on_desktop(const StudyRunArguments&, const DesktopArguments&) {
+  return Error{ErrorCode::not_found,
+               "--desktop: expected a nade with its window, found one built without it"};
+}
+
+void add_desktop_options(CLI::App&, DesktopArguments&) {}
+
+#endif
+
+struct RunArguments {
+  StudyRunArguments study;
+  DesktopArguments desktop;
+  bool desktop_asked = false;
+  bool headset_asked = false;
+};
+
+Status run_study(const RunArguments& arguments) {
+  if (arguments.headset_asked) return run_study_in_headset(arguments.study);
+  return run_on_desktop(arguments.study, arguments.desktop);
+}
+
+}  // namespace
+
+#ifndef NADE_CLI_STUDY_XR
+Status run_study_in_headset(const StudyRunArguments&) {
+  return Error{ErrorCode::not_found,
+               "--xr: expected a nade built with OpenXR, found one without it (Debian: "
+               "libopenxr-dev)"};
+}
+#endif
+
+Result<std::unique_ptr<study::StudyRun>> open_study(const StudyRunArguments& arguments,
+                                                    const HandSource& source) {
+  Result<study::Plan> plan = study::read_plan(arguments.plan);
+  if (!plan) return plan.error();
+  if (arguments.language == "en") plan->language = study::Language::english;
+  if (arguments.language == "ja") plan->language = study::Language::japanese;
+  const std::filesystem::path path(arguments.plan);
+  study::RunOptions options;
+  options.store.folder = arguments.folder.value_or((path.parent_path() / path.stem()).string());
+  options.store.participant = arguments.participant;
+  options.store.tool = "nade " NADE_VERSION;
+  options.store.speed = arguments.speed;
+  options.plan_folder = path.parent_path().string();
+  options.source = source.name;
+  options.hand_scale_known = source.scale_known;
+  Result<std::unique_ptr<study::StudyRun>> run = study::StudyRun::open(*plan, std::move(options));
+  if (!run) return run.error();
+  for (const std::string& note : (*run)->store().notes()) warn(note);
+  return run;
+}
+
+Status close_study(const study::StudyRun& run) {
+  if (!run.status().ok()) return run.status();
+  const study::StudyProgress& progress = run.session().progress();
+  std::size_t open = 0;
+  for (const auto fate : progress.trials) {
+    open += fate == study::StudyProgress::Fate::open ? 1 : 0;
+  }
+  if (run.dropped_frames() > 0) {
+    warn(fmt::format("{}: the disk was too slow for {} frames of motion", run.store().folder(),
+                     run.dropped_frames()));
+  }
+  say(open == 0 ? fmt::format("{}: done", run.store().folder())
+                : fmt::format("{}: {} of {} trials still to be done; the same command goes on",
+                              run.store().folder(), open, progress.trials.size()));
+  return ok_status();
+}
+
+void add_study_run(CLI::App& study, Action& action) {
+  CLI::App* const command = study.add_subcommand(
+      "run", "Runs a participant's study, or goes on with it where it was stopped");
+  const auto arguments = std::make_shared<RunArguments>();
+  command->add_option("plan", arguments->study.plan, "the study's plan")
+      ->type_name("PLAN")
+      ->required();
+  command
+      ->add_option("--participant", arguments->study.participant,
+                   "letters, digits, - and _: no names")
+      ->type_name("ID")
+      ->required();
+  command
+      ->add_option("-d,--directory", arguments->study.folder,
+                   "the study's folder (default: beside the plan, by its name)")
+      ->type_name("DIR");
+  command->add_option("--language", arguments->study.language, "in place of the plan's")
+      ->type_name("en|ja")
+      ->check(CLI::IsMember({"en", "ja"}));
+  CLI::Option* const desktop = command->add_flag("--desktop", arguments->desktop_asked,
+                                                 "in a window, with the mouse's hand (default)");
+  command->add_flag("--xr", arguments->headset_asked, "in a headset")->excludes(desktop);
+  command->add_flag("--mirror", arguments->study.mirror,
+                    "with --xr: a window for the operator, what is seen and figures");
+  command
+      ->add_option("--panel-log", arguments->study.panel_log,
+                   "with --xr: writes what the panel shows as lines of JSON, for programs")
+      ->type_name("FILE");
+  command
+      ->add_option("--speed", arguments->study.speed,
+                   "so many times faster, to try a plan out; the data say so")
+      ->type_name("X")
+      ->check(CLI::Range(0.1, 100.0));
+  add_desktop_options(*command, arguments->desktop);
+  command->callback(
+      [&action, arguments] { action = [arguments] { return run_study(*arguments); }; });
+}
+
+}  // namespace nade::cli
