@@ -142,16 +142,27 @@ TEST_F(RenderCommand, FailingEncoderIsOneSentence) {
 
 TEST_F(RenderCommand, RefusesWithTwo) {
   make_stroke("in.jsonl");
-  for (const std::string& arguments : std::vector<std::string>{
-           "in.jsonl", "in.jsonl -o out.gif", "in.jsonl -o out-%s.png --from 0",
-           "in.jsonl -o out.png --frame 9999", "in.jsonl -o out.png --frame 1 --time 0.1",
-           "in.jsonl -o out.png --time 99", "in.jsonl -o out.png --from 0.1",
-           "in.jsonl -o out-%03d.png --frame 1", "in.jsonl -o out-%03d.png --from 0.4 --to 0.2",
-           "in.jsonl -o out.png --view below", "in.jsonl -o out.png --eye 1,2",
-           "in.jsonl -o out.png --size 0x10", "in.jsonl -o out.png --size big",
-           "in.jsonl -o out.png --overlay rays,everything", "in.jsonl -o out.png --show all",
-           "in.jsonl -o out.png --follow me", "in.jsonl -o film.mp4 --size 161x120",
-           "in.jsonl -o film.mp4 --fps 0"}) {
+  for (const std::string& arguments :
+       std::vector<std::string>{"in.jsonl",
+                                "in.jsonl -o out.gif",
+                                "in.jsonl -o out-%s.png --from 0",
+                                "in.jsonl -o out.png --frame 9999",
+                                "in.jsonl -o out.png --frame 1 --time 0.1",
+                                "in.jsonl -o out.png --time 99",
+                                "in.jsonl -o out.png --from 0.1",
+                                "in.jsonl -o out-%03d.png --frame 1",
+                                "in.jsonl -o out-%03d.png --from 0.4 --to 0.2",
+                                "in.jsonl -o out.png --view below",
+                                "in.jsonl -o out.png --eye 1,2",
+                                "in.jsonl -o out.png --eye 1e9,0,0",
+                                "in.jsonl -o out.png --eye 1,1,1 --target 1,1,1",
+                                "in.jsonl -o out.png --size 0x10",
+                                "in.jsonl -o out.png --size big",
+                                "in.jsonl -o out.png --overlay rays,everything",
+                                "in.jsonl -o out.png --show all",
+                                "in.jsonl -o out.png --follow me",
+                                "in.jsonl -o film.mp4 --size 161x120",
+                                "in.jsonl -o film.mp4 --fps 0"}) {
     const Ran ran = render(arguments);
     EXPECT_EQ(ran.status, 2) << arguments << "\n" << ran.err;
     EXPECT_NE(ran.err, "") << arguments;
@@ -189,6 +200,7 @@ TEST_F(RenderCommand, FigureOfOnesOwnRecording) {
   EXPECT_EQ(nade("figure -o no.png --method magic").status, 2);
   EXPECT_EQ(nade("figure -o no.png --frame 3").status, 2);
   EXPECT_EQ(nade("figure in.jsonl -o no.png --frame 9999").status, 2);
+  EXPECT_EQ(nade("figure in.jsonl -o no.png --time 99").status, 2);
   expect_failure(nade("figure nowhere.jsonl -o no.png"), "nowhere.jsonl");
   EXPECT_EQ(files(), (std::vector<std::string>{"in.jsonl", "sheet.png"}));
 }
