@@ -78,14 +78,19 @@ void add_xr(CLI::App& app, Action& action) {
       ->type_name("FILE");
   command->add_flag("--time", arguments->run.report,
                     "shows what a correction takes, and at the end what frames took");
+  command
+      ->add_option("--panel-log", arguments->run.panel_log,
+                   "writes what the panel shows, and where its buttons are, as lines of JSON")
+      ->type_name("FILE");
   command->add_flag("--mirror", arguments->run.mirror,
                     "a window for the operator: what is seen, and figures");
   const std::map<std::string, xr::GraphicsWay> ways{{"egl", xr::GraphicsWay::egl},
                                                     {"xlib", xr::GraphicsWay::xlib}};
   command
       ->add_option("--graphics", arguments->run.graphics,
-                   "how pictures reach the runtime: egl or xlib; without it, what it offers")
-      ->transform(CLI::CheckedTransformer(ways, CLI::ignore_case));
+                   "how pictures reach the runtime, if not in the way it offers")
+      ->type_name("egl|xlib")
+      ->transform(CLI::CheckedTransformer(ways));
   command->callback([&action, arguments] { action = [arguments] { return run_xr(*arguments); }; });
 }
 

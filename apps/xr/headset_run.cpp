@@ -16,6 +16,7 @@
 #include "headset_session.h"
 #include "mirror.h"
 #include "motion_files.h"
+#include "panel_log.h"
 
 namespace nade::xr {
 namespace {
@@ -98,6 +99,7 @@ class Loop {
   MirrorFeed* mirror_ = nullptr;
   std::unique_ptr<study::MotionRecorder> recorder_;
   int recordings_ = 0;
+  std::optional<PanelLog> panel_log_;
   std::optional<RecordedAs> recorded_as_;  ///< while a recording goes on
   std::string headset_name_;
   FrameCosts costs_;
@@ -116,6 +118,7 @@ bool Loop::wants_out() const {
 }
 
 Status Loop::begin(RoomSetup setup, const Headset& headset) {
+  if (run_.panel_log) panel_log_.emplace(*run_.panel_log);
   Result<std::unique_ptr<GraphicsBinding>> binding = bind(headset.graphics());
   if (!binding) return binding.error();
   binding_ = std::move(binding).value();
@@ -212,16 +215,18 @@ void Loop::show_frame(HeadsetSession& session) {
 }
 
 void Loop::draw_eyes(HeadsetSession& session, const TrackedFrame& frame) {
+  std::array<draw::Sight, 2> eyes;
   for (std::size_t eye = 0; eye < 2; ++eye) {
     const std::optional<draw::Target> target = session.acquire(eye);
     if (!target) return;
-    room_->draw(frame.eyes[eye], *target);
-    if (run_.screenshot && run_.frames && shown_ + 1 >= *run_.frames) {
-      screenshots_[eye] = read_back(*target);
-    }
-    if (mirror_ && eye == 0) mirror_->take(*target, *room_);
-    session.release(eye);
+    eyes[eye] = {frame.eyes[eye], *target};
   }
+  room_->draw(eyes);
+  if (run_.screenshot && run_.frames && shown_ + 1 >= *run_.frames) {
+    for (std::size_t eye = 0; eye < 2; ++eye) screenshots_[eye] = read_back(eyes[eye].target);
+  }
+  if (mirror_ != nullptr) mirror_->take(eyes[0].target, *room_);
+  for (std::size_t eye = 0; eye < 2; ++eye) session.release(eye);
 }
 
 void Loop::follow_guide() {
@@ -265,6 +270,7 @@ void Loop::tell_guide(const TrackedFrame& frame) {
   }
   moment_.correction_us = costs_.last_correction_us();
   if (recorded_as_) record();
+  if (panel_log_) panel_log_->note(*room_);
   guide_.seen(moment_);
   obey(guide_.take_wishes());
 }

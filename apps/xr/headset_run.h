@@ -15,8 +15,11 @@ struct HeadsetRun {
   std::optional<std::string>
       screenshot;                     ///< what both eyes saw last: FILE-left.png, FILE-right.png
   std::optional<std::string> record;  ///< a recording; the corrected one is beside it
-  bool report = false;                ///< says at the end what frames cost
-  bool mirror = false;                ///< a window for the operator
+  /// A line of JSON for each panel that is shown: its buttons, and where they are in the headset's
+  /// space. For programs that watch or press it.
+  std::optional<std::string> panel_log;
+  bool report = false;  ///< says at the end what frames cost
+  bool mirror = false;  ///< a window for the operator
 };
 
 /// Shows the guide's room in the headset until the person, the runtime or Ctrl-C ends it. A session

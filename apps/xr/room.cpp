@@ -156,6 +156,7 @@ void Room::set(const Show& show) {
 
 void Room::paint_panel() {
   panel_ = paint(show_.panel);
+  ++panel_revision_;
   renderer_.set_texture(panel_mesh_, panel_.image);
 }
 
@@ -294,10 +295,10 @@ void Room::update(const TrackedFrame& frame) {
   cost_.submit_s = 0.0;
 }
 
-void Room::draw(const draw::Camera& eye, const draw::Target& target) {
+void Room::draw(const std::array<draw::Sight, 2>& eyes) {
   const double start = thread_seconds();
-  renderer_.draw(scene_, eye, target);
-  cost_.submit_s += thread_seconds() - start;
+  renderer_.draw(scene_, eyes);
+  cost_.submit_s = thread_seconds() - start;
 }
 
 draw::Image Room::picture(const draw::Camera& eye, int width, int height) {

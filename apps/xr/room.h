@@ -66,8 +66,8 @@ class Room {
   /// A new frame: corrects the hands and arranges what will be drawn. Does not allocate, once all
   /// has been seen.
   void update(const TrackedFrame& frame);
-  /// Draws the frame for an eye.
-  void draw(const draw::Camera& eye, const draw::Target& target);
+  /// Draws the frame for both eyes.
+  void draw(const std::array<draw::Sight, 2>& eyes);
   /// As `draw`, into a picture.
   [[nodiscard]] draw::Image picture(const draw::Camera& eye, int width, int height);
 
@@ -87,6 +87,8 @@ class Room {
   [[nodiscard]] const draw::HandMeshes& meshes() const { return setup_.hands; }
   [[nodiscard]] Pose panel_pose() const;
   [[nodiscard]] const PanelPicture& panel() const { return panel_; }
+  /// Grows with every panel that is another than the last.
+  [[nodiscard]] std::uint64_t panel_revision() const { return panel_revision_; }
   [[nodiscard]] const FrameCost& cost() const { return cost_; }
 
  private:
@@ -122,6 +124,7 @@ class Room {
   std::array<Touch, 2> touching_;
   std::optional<int> pressed_;
   PanelPicture panel_;
+  std::uint64_t panel_revision_ = 0;
   draw::MeshId panel_mesh_{};
   draw::MeshId stand_mesh_{};
   draw::Scene scene_;

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <openxr/openxr_reflection.h>
 
+#include <cstdlib>
+
 namespace nade::xr {
 namespace {
 
@@ -17,6 +19,8 @@ void find(PFN_xrGetInstanceProcAddr get, XrInstance instance, const char* name, 
 }  // namespace
 
 Result<XrApi> XrApi::open() {
+  // It would tell at length what we tell in a sentence.
+  setenv("XR_LOADER_DEBUG", "none", 0);
   // Stays open: runtimes do not like to be unloaded.
   void* const library = dlopen("libopenxr_loader.so.1", RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) {

@@ -88,8 +88,12 @@ struct Renderer::Impl {
     glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, uniforms.get());
   }
 
+  /// Of several eyes, shadows are the same for all: they are drawn with the first.
+  enum class Shadows : std::uint8_t { draw, keep };
+
   /// The picture, resolved, is then in `targets->resolved`.
-  void draw(const Scene& scene, const Camera& camera, int width, int height) {
+  void draw(const Scene& scene, const Camera& camera, int width, int height,
+            Shadows at_shadows = Shadows::draw) {
     if (!targets || targets->width != width || targets->height != height) {
       targets.reset();
       targets.emplace(width, height);
@@ -98,7 +102,7 @@ struct Renderer::Impl {
     list.gather(scene, meshes, camera);
     const FrameUniforms frame = frame_uniforms(scene, camera, width, height, list.solid_corners());
     set_uniforms(frame);
-    shadows.draw(list.solids());
+    if (at_shadows == Shadows::draw) shadows.draw(list.solids());
     shadows.bind();
     occlusion.draw(list.solids(), scene, *targets);
 
@@ -160,12 +164,21 @@ void Renderer::set_texture(MeshId mesh, const Image& image) {
 }
 
 void Renderer::draw(const Scene& scene, const Camera& camera, const Target& target) {
-  NADE_ASSERT(target.width > 0 && target.height > 0);
-  impl_->draw(scene, camera, target.width, target.height);
-  glBlitNamedFramebuffer(impl_->targets->resolve_pass.get(), target.framebuffer, 0, 0, target.width,
-                         target.height, target.x, target.y, target.x + target.width,
-                         target.y + target.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
+  const Sight sight{camera, target};
+  draw(scene, std::span(&sight, 1));
+}
+
+void Renderer::draw(const Scene& scene, std::span<const Sight> sights) {
+  Impl::Shadows shadows = Impl::Shadows::draw;
+  for (const auto& [camera, target] : sights) {
+    NADE_ASSERT(target.width > 0 && target.height > 0);
+    impl_->draw(scene, camera, target.width, target.height, shadows);
+    shadows = Impl::Shadows::keep;
+    glBlitNamedFramebuffer(impl_->targets->resolve_pass.get(), target.framebuffer, 0, 0,
+                           target.width, target.height, target.x, target.y, target.x + target.width,
+                           target.y + target.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
+  }
 }
 
 Image Renderer::picture(const Scene& scene, const Camera& camera, int width, int height) {

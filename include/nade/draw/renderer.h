@@ -19,6 +19,12 @@ struct Target {
   int height = 0;
 };
 
+/// An eye, and where what it sees goes.
+struct Sight {
+  Camera camera;
+  Target target;
+};
+
 /// Which side of the triangles a depth map is of.
 enum class Faces : std::uint8_t { front, back };
 
@@ -54,6 +60,9 @@ class Renderer {
 
   /// Draws into a framebuffer, 4 samples a pixel.
   void draw(const Scene& scene, const Camera& camera, const Target& target);
+  /// The same for several eyes at once, such as a headset's two: what does not depend on the eye is
+  /// drawn once.
+  void draw(const Scene& scene, std::span<const Sight> sights);
   /// Draws into a picture.
   [[nodiscard]] Image picture(const Scene& scene, const Camera& camera, int width, int height);
   /// Depths of the scene's instances, without floor and diagram parts, one sample a pixel.
