@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include "nade/study/statistics.h"
@@ -19,7 +20,10 @@ struct AnswerKey {
   std::string question;
   std::string object;
   std::string method;
-  auto operator<=>(const AnswerKey&) const = default;
+  friend bool operator<(const AnswerKey& a, const AnswerKey& b) {
+    return std::tie(a.participant, a.question, a.object, a.method) <
+           std::tie(b.participant, b.question, b.object, b.method);
+  }
 };
 using Answers = std::map<AnswerKey, double>;
 

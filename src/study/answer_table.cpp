@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "csv_table.h"
@@ -132,6 +133,17 @@ Result<GivenAnswer> read_row(const CsvTable& table, const CsvRecord& record,
   return answer;
 }
 
+/// What a person answered questions about.
+struct Condition {
+  std::string participant;
+  std::string object;
+  std::string method;
+  friend bool operator<(const Condition& a, const Condition& b) {
+    return std::tie(a.participant, a.object, a.method) <
+           std::tie(b.participant, b.object, b.method);
+  }
+};
+
 /// A person's attempts at one condition; in each, the row that counts of each question.
 using Attempts = std::map<std::size_t, std::map<std::string, const GivenAnswer*>>;
 
@@ -163,12 +175,6 @@ Result<AnswerTable> read_answer_table(const std::string& path) {
 }
 
 Result<AnswerTable> counting_answers(AnswerTable table) {
-  struct Condition {
-    std::string participant;
-    std::string object;
-    std::string method;
-    auto operator<=>(const Condition&) const = default;
-  };
   std::map<Condition, Attempts> conditions;
   std::set<std::string> questions;
   for (const GivenAnswer& answer : table.answers) {

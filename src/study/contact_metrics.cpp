@@ -71,7 +71,7 @@ ContactMetrics measure_trials(const StudyData& data, const std::function<void()>
 }
 
 std::span<const MetricInfo> reported_metrics() {
-  static const std::vector<MetricInfo> reported = [] {
+  static const std::vector<MetricInfo> kInfos = [] {
     std::vector<MetricInfo> chosen;
     for (const MetricInfo& info : metric_table()) {
       if (std::find(kReported.begin(), kReported.end(), info.key) != kReported.end()) {
@@ -80,7 +80,7 @@ std::span<const MetricInfo> reported_metrics() {
     }
     return chosen;
   }();
-  return reported;
+  return kInfos;
 }
 
 std::optional<MetricSummary> summary_of(const ContactMetrics& contact, const MetricInfo& metric,
