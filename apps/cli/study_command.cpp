@@ -80,7 +80,7 @@ Status run_check(const std::string& folder) {
   }
   for (const std::string& note : check->notes) std::printf("note: %s\n", note.c_str());
   for (const std::string& problem : check->problems) {
-    std::fprintf(stderr, "nade: %s\n", problem.c_str());
+    std::printf("problem: %s\n", problem.c_str());
   }
   if (check->problems.empty()) return ok_status();
   return Error{ErrorCode::bad_value,

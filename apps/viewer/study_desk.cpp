@@ -104,7 +104,7 @@ void StudyDesk::draw_row(UiKit& ui, const std::vector<study::PanelButton>& row) 
 void StudyDesk::draw_operator(UiKit& ui, const Input& input) {
   const ImVec2 screen = size_of(input, ui);
   ImGui::SetNextWindowPos({0.0F, screen.y}, ImGuiCond_Always, {0.0F, 1.0F});
-  ImGui::SetNextWindowBgAlpha(0.0F);
+  ImGui::SetNextWindowBgAlpha(0.8F);  // over a bright scene too
   ImGui::Begin("operator", nullptr, kPanelFlags | ImGuiWindowFlags_NoInputs);
   ImGui::PushFont(ui.small_font());
   const study::StudyScene& scene = run_->scene();
