@@ -25,10 +25,20 @@ float in_row(int count) {
   return std::floor((whole - kGap * static_cast<float>(count - 1)) / static_cast<float>(count));
 }
 
-/// Whether the object moves by itself, and how soft it is.
+/// What it is, where that is a file; whether it moves by itself; and how soft it is.
 void nature_controls(UiKit& ui, Desk& desk, const std::string& still) {
+  constexpr std::size_t kLongest = 18;
+  const bool file = still.find('.') != std::string::npos || still.find('/') != std::string::npos;
+  std::string name = std::filesystem::path(still).filename().string();
+  if (name.size() > kLongest) name = name.substr(0, kLongest - 1) + "…";
+  const float second = 0.5F * ImGui::GetContentRegionAvail().x + ImGui::GetStyle().WindowPadding.x;
+  ImGui::PushFont(ui.small_font());
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextDisabled("%s", file ? name.c_str() : "or drop a mesh file");
+  ImGui::PopFont();
   if (still == "dog" || still.ends_with(".glb") || still.ends_with(".gltf")) {
     bool alive = desk.session.loaded().animation.has_value();
+    ImGui::SameLine(second);
     if (ui.check("object:alive", "alive", alive, "It moves as its file's animation says")) {
       desk.show_object(alive ? still + kAlive : still);
     }
@@ -65,11 +75,6 @@ void object_section(UiKit& ui, Desk& desk) {
       desk.show_object(choice.spec);
     }
   }
-  ImGui::PushFont(ui.small_font());
-  const bool file = spec.find('.') != std::string::npos || spec.find('/') != std::string::npos;
-  ImGui::TextDisabled("%s", file ? std::filesystem::path(spec).filename().c_str()
-                                 : "or drop a mesh file onto the window");
-  ImGui::PopFont();
   nature_controls(ui, desk, still);
 }
 
