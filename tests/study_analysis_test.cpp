@@ -352,6 +352,9 @@ TEST_F(StudyAnalysis, AStudysFolder) {
   EXPECT_EQ(data->questions, plan.questions);
   EXPECT_FALSE(data->simulated);
   EXPECT_EQ(data->answers.size(), 3U * 18U - 3U);
+  const Result<StudyData> alone = read_study_data(path("study/P1/"));
+  ASSERT_TRUE(alone.ok()) << alone.error().message;
+  EXPECT_EQ(alone->answers.size(), 18U);
   for (const GivenAnswer& answer : data->answers) {
     EXPECT_EQ(answer.value, answer.method == "none" ? 2.0 : answer.question == "Q2" ? 6.0 : 5.0);
   }

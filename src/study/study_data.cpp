@@ -106,7 +106,8 @@ Status add_table(const std::string& path, StudyData& data) {
 Status add_folder(const std::string& path, StudyData& data) {
   std::error_code aside;
   if (std::filesystem::exists(std::filesystem::path(path) / kPlanFile, aside)) {
-    return add_participant(path, data);
+    // The folder's own name is the participant's, however it was asked for ("P01/", ".").
+    return add_participant(std::filesystem::canonical(path, aside).string(), data);
   }
   const Result<std::vector<std::string>> folders = participant_folders(path);
   if (!folders) return folders.error();
