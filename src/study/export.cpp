@@ -157,13 +157,12 @@ Status Exporter::add_trial(const Participant& participant, const std::string& la
   for (const Text& text : participant.head.plan.instructions) {
     instructions += (instructions.empty() ? "" : " ") + text.in(participant.head.plan.language);
   }
-  motion.about = {
-      {"TaskDescription", fmt::format("Stroking a virtual {} with the bare hand", trial.object)},
-      {"Instructions", instructions},
-      {"SoftwareVersions", participant.head.tool},
-      {"Object", trial.object},
-      {"Method", method_name(trial.method)}};
-  if (simulated_) motion.about["Simulated"] = "SIMULATED";
+  // Validators refuse keys that BIDS does not know; object and method are columns of the scans.
+  motion.about["TaskDescription"] =
+      fmt::format("{}Stroking a virtual {} with the bare hand; method {}",
+                  simulated_ ? "SIMULATED: " : "", trial.object, method_name(trial.method));
+  motion.about["Instructions"] = instructions;
+  motion.about["SoftwareVersions"] = participant.head.tool;
   const Result<std::vector<std::string>> written = write_bids_motion(motion);
   if (!written) return written.error();
   for (const std::string& name : *written) {
