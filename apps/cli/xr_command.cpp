@@ -34,9 +34,12 @@ Status run_xr(const XrArguments& arguments) {
   room.corrector = options_of(arguments.method);
   use_own_hands(arguments.hands, *hands, room.corrector);
   room.hands = std::move(hands).value();
-  if (arguments.object.at) room.placement.pose.position = *arguments.object.at;
-  if (arguments.object.turn) room.placement.pose.rotation = *arguments.object.turn;
-  if (arguments.object.scale) room.placement.scale = *arguments.object.scale;
+  if (arguments.object.at || arguments.object.turn || arguments.object.scale) {
+    room.placement.emplace();
+    if (arguments.object.at) room.placement->pose.position = *arguments.object.at;
+    if (arguments.object.turn) room.placement->pose.rotation = *arguments.object.turn;
+    if (arguments.object.scale) room.placement->scale = *arguments.object.scale;
+  }
   room.objects = {"plane", "sphere", "dog"};
   const std::string first = arguments.object.object.value_or("sphere");
   const auto known = std::find(room.objects.begin(), room.objects.end(), first);

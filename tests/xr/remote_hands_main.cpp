@@ -71,7 +71,10 @@ std::optional<Panel> read_panel(const std::string& path) {
 
 class Person {
  public:
-  explicit Person(RemoteDriver driver) : driver_(std::move(driver)) {}
+  /// Whether the trackers lose the hand from time to time.
+  enum class Tracking : std::uint8_t { whole, with_gaps };
+  Person(RemoteDriver driver, Tracking tracking)
+      : driver_(std::move(driver)), loses_(tracking == Tracking::with_gaps) {}
 
   /// A moment of stroking.
   bool stroke() {
@@ -83,7 +86,7 @@ class Person {
     const double from_center = kBallRadius_m + kPalmSkin_m - kSunk_m + above;
     const Vec3 center = kBallTop - kBallRadius_m * Vec3::UnitY();
     RemoteHand& hand = state_.hands[index_of(Handedness::right)];
-    hand.tracked = std::fmod(time_s_, kLostEvery_s) < kLostEvery_s - kLostFor_s;
+    hand.tracked = !loses_ || std::fmod(time_s_, kLostEvery_s) < kLostEvery_s - kLostFor_s;
     hand.grip =
         grip_for_palm(Handedness::right, {center + turn * Vec3(0.0, from_center, 0.0), turn});
     hand.curl.fill(0.12F);
@@ -109,6 +112,7 @@ class Person {
   }
 
   RemoteDriver driver_;
+  bool loses_;
   RemoteState state_ = looking_down();
   double time_s_ = 0.0;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
@@ -163,13 +167,14 @@ int run(const std::vector<std::string>& words) {
     std::fprintf(stderr, "remote_hands: %s\n", driver.error().message.c_str());
     return 1;
   }
-  Person person(std::move(driver).value());
+  const bool strokes = words.front() == "stroke";
+  Person person(std::move(driver).value(),
+                strokes ? Person::Tracking::with_gaps : Person::Tracking::whole);
   std::vector<int> ids;
   for (std::size_t i = 2; i < words.size(); ++i) ids.push_back(std::atoi(words[i].c_str()));
   while (true) {
-    const bool goes_on = words.front() == "stroke"
-                             ? person.stroke()
-                             : work_panel(person, words.at(1), ids, words.front() == "answer");
+    const bool goes_on =
+        strokes ? person.stroke() : work_panel(person, words.at(1), ids, words.front() == "answer");
     if (!goes_on) return 0;
   }
 }
