@@ -149,30 +149,48 @@ struct MeshSurface::Impl {
     radius = 0.5 * bounds.diagonal().cast<double>().norm();
   }
 
-  [[nodiscard]] bool is_inside(const Vec3& query, std::uint32_t slot, const TrianglePoint& nearest,
-                               const Vec3& face) const {
-    if (topology.sign == detail::SignRule::winding) {
-      const Eigen::Vector3f at = query.cast<float>();
-      return tree.winding({at.x(), at.y(), at.z()}) > 0.5F;
-    }
-    const Vec3 away = query - nearest.point;
-    if (nearest.feature == Feature::face) return face.dot(away) < 0.0;
+  /// Of the feature that is nearest, not normalised: the face, or those that meet in an edge or a
+  /// vertex. No value at a border, where inside and outside meet.
+  [[nodiscard]] std::optional<Vec3> pseudonormal(std::uint32_t slot, const TrianglePoint& nearest,
+                                                 const Vec3& face) const {
+    if (nearest.feature == Feature::face) return face;
     const std::uint32_t triangle = tree.triangle_at(slot);
     if (nearest.feature < Feature::edge_01) {
       const auto corner = static_cast<std::size_t>(nearest.feature);
       const std::uint32_t vertex = mesh.triangles[triangle][corner];
-      if (topology.sign == detail::SignRule::sheet && normals.on_border(vertex)) return false;
-      return normals.vertex_pseudonormal(vertex).dot(away) < 0.0;
+      if (topology.sign == detail::SignRule::sheet && normals.on_border(vertex)) return {};
+      return normals.vertex_pseudonormal(vertex);
     }
     const auto edge =
         static_cast<std::size_t>(nearest.feature) - static_cast<std::size_t>(Feature::edge_01);
     const std::uint32_t other = topology.neighbours[triangle][edge];
-    if (other == detail::kBorder) return false;
-    Vec3 pseudonormal = face.stableNormalized();
-    if (detail::is_triangle(other)) {
-      pseudonormal += detail::face_normal(mesh, other).stableNormalized();
+    if (other == detail::kBorder) return {};
+    Vec3 sum = face.stableNormalized();
+    if (detail::is_triangle(other)) sum += detail::face_normal(mesh, other).stableNormalized();
+    return sum;
+  }
+
+  [[nodiscard]] SurfacePoint point_at(const Vec3& query, const Vec3& seen_from, std::uint32_t slot,
+                                      const SlotTriangle& triangle,
+                                      const TrianglePoint& nearest) const {
+    const Vec3 face = face_normal(triangle.corners);
+    const double distance = length(query - nearest.point);
+    SurfacePoint result{nearest.point, shading_normal(triangle, nearest.weights), distance};
+    if (topology.sign == detail::SignRule::winding) {
+      const Eigen::Vector3f at = seen_from.cast<float>();
+      if (tree.winding({at.x(), at.y(), at.z()}) > 0.5F) result.signed_distance = -distance;
+      return result;
     }
-    return pseudonormal.dot(away) < 0.0;
+    const std::optional<Vec3> around = pseudonormal(slot, nearest, face);
+    if (!around) return result;
+    if (around->dot(seen_from - nearest.point) < 0.0) result.signed_distance = -distance;
+    // On a crease the normal is nobody's own: which of its faces was found is an accident.
+    constexpr double kOffCosine = 0.966;
+    const Vec3 unit = around->stableNormalized();
+    if (nearest.feature != Feature::face && unit.dot(result.normal) < kOffCosine) {
+      if (!unit.isZero()) result.normal = unit;
+    }
+    return result;
   }
 };
 
@@ -284,14 +302,10 @@ std::optional<SurfacePoint> MeshSurface::closest_point(const Vec3& query, double
   if (found == kNoSlot) return std::nullopt;
 
   const SlotTriangle triangle = impl_->tree.at(found);
-  const Vec3 face = face_normal(triangle.corners);
   const TrianglePoint nearest = nearest_on(triangle.corners, query);
-  const double distance = length(query - nearest.point);
-  if (!(distance <= max_distance)) return std::nullopt;
+  if (!(length(query - nearest.point) <= max_distance)) return std::nullopt;
   hint.element = found;
-  const bool inside = impl_->is_inside(seen_from, found, nearest, face);
-  return SurfacePoint{nearest.point, shading_normal(triangle, nearest.weights),
-                      inside ? -distance : distance};
+  return impl_->point_at(query, seen_from, found, triangle, nearest);
 }
 
 void MeshSurface::refit(std::span<const Eigen::Vector3f> vertices) noexcept {

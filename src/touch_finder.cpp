@@ -27,7 +27,7 @@ PadPlane plane_at(const SurfacePoint& nearest, const Vec3& middle) {
   PadPlane plane{middle, nearest.point, nearest.normal};
   if (!(nearest.signed_distance > 1e-4)) return plane;
   const Vec3 outward = (middle - nearest.point).normalized();
-  const double smooth = smoothstep(0.6, 0.9, outward.dot(nearest.normal));
+  const double smooth = smoothstep(0.95, 0.995, outward.dot(nearest.normal));
   plane.normal = (smooth * nearest.normal + (1.0 - smooth) * outward).normalized();
   return plane;
 }

@@ -194,6 +194,16 @@ TEST(Mesh, CreasesStaySharp) {
   }
 }
 
+TEST(Mesh, OnACreaseTheNormalIsBetweenTheFaces) {
+  const auto mesh = build(test::box_mesh({0.1F, 0.1F, 0.1F}));
+  for (const double beyond : {0.001, 0.01, 0.05}) {
+    SurfaceHint hint;
+    const auto nearest = mesh->closest_point({0.1 + beyond, 0.12, 0.03}, 1.0, hint);
+    EXPECT_NEAR(nearest->normal.x(), std::sqrt(0.5), 1e-6);
+    EXPECT_NEAR(nearest->normal.y(), std::sqrt(0.5), 1e-6);
+  }
+}
+
 TEST(Mesh, InsideOutIsTurned) {
   const auto mesh = build(test::turned_inside_out(test::icosphere(0.15F, 2)));
   EXPECT_EQ(mesh->report().triangles_turned, 320U);

@@ -26,7 +26,7 @@ struct RayHit {
 /// The point of a surface nearest to a query.
 struct SurfacePoint {
   Vec3 point = Vec3::Zero();
-  Vec3 normal = Vec3::UnitY();   ///< unit, out of the solid
+  Vec3 normal = Vec3::UnitY();   ///< unit, out of the solid; on a crease between its faces
   double signed_distance = 0.0;  ///< of the query: negative inside the solid
 };
 
