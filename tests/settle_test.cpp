@@ -9,6 +9,7 @@
 #include "nade/corrector.h"
 #include "nade/mesh.h"
 #include "support/allocation_counter.h"
+#include "support/hand_checks.h"
 #include "support/meshes.h"
 #include "support/random.h"
 #include "support/sample_hand.h"
@@ -16,7 +17,9 @@
 namespace nade {
 namespace {
 
+using test::generic_size_hand;
 using test::rad;
+using test::same_bits;
 
 constexpr std::int64_t kFrame_ns = 11'111'111;
 
@@ -31,14 +34,6 @@ CorrectorOptions settling() {
   CorrectorOptions options;
   options.method = Method::nade;
   return options;
-}
-
-HandPose generic_size_hand(Handedness side = Handedness::right,
-                           const HandAngles& angles = test::relaxed_angles()) {
-  HandPose hand = test::sample_hand(side, angles);
-  const double scale = kGenericHandLength / hand_length(hand);
-  for (Pose& joint : hand.joints) joint.position *= scale;
-  return hand;
 }
 
 /// The palm's skin `depth_m` below y = 0, tilted about the hand's lateral axis.
@@ -70,41 +65,6 @@ double lowest_skin(const HandPose& hand, const Object& object) {
     lowest = std::min(lowest, nearest->signed_distance);
   }
   return lowest;
-}
-
-bool same_bits(const HandPose& a, const HandPose& b) {
-  for (std::size_t i = 0; i < kJointCount; ++i) {
-    if (a.joints[i].position != b.joints[i].position) return false;
-    if (a.joints[i].rotation.coeffs() != b.joints[i].rotation.coeffs()) return false;
-  }
-  return true;
-}
-
-bool all_finite(const HandPose& hand) {
-  return std::all_of(hand.joints.begin(), hand.joints.end(), [](const Pose& joint) {
-    return joint.position.allFinite() && joint.rotation.coeffs().allFinite();
-  });
-}
-
-double excess(double value, double low, double high) {
-  return std::max({0.0, value - high, low - value});
-}
-
-/// How far beyond its range of motion the worst joint is that the tracked pose did not have so.
-double limit_violation(const HandPose& tracked, const HandPose& corrected) {
-  const HandAngles before = measure_angles(tracked);
-  const HandAngles after = measure_angles(corrected);
-  double worst = 0.0;
-  for (std::size_t d = 0; d < kDigitCount; ++d) {
-    for (std::size_t i = 0; i < kHingeCount; ++i) {
-      const HingeRange range = range_of_motion(digit_at(d), i);
-      const auto flexion = [&](const HandAngles& angles) {
-        return excess(angles[d][i].flexion, range.flexion_min, range.flexion_max);
-      };
-      worst = std::max(worst, flexion(after) - flexion(before));
-    }
-  }
-  return worst;
 }
 
 /// Flexion of PIP and DIP, the mean of the four fingers.
@@ -315,39 +275,6 @@ TEST(Settle, AFrameAllocatesNothingAndRepeatsToTheBit) {
         test::allocations_of([&] { a = first.update(tracked, ball(), i * kFrame_ns).pose; });
     EXPECT_EQ(count, 0U) << "frame " << i;
     EXPECT_TRUE(same_bits(a, second.update(tracked, ball(), i * kFrame_ns).pose)) << i;
-  }
-}
-
-/// Hands that wander through balls of all sizes: whatever happens, a frame gives a hand.
-TEST(Settle, RandomMotionsKeepLimitsAndStayFinite) {
-  test::Random random;
-  SCOPED_TRACE(testing::Message() << "NADE_TEST_SEED=" << test::seed());
-  for (int trial = 0; trial < 50; ++trial) {
-    const SphereSurface surface(random.uniform(0.03, 0.4));
-    const Object object(surface, {{{0.0, -surface.radius(), 0.0}, random.rotation()}, 1.0});
-    const Handedness side = trial % 2 == 0 ? Handedness::right : Handedness::left;
-    HandAngles angles = test::relaxed_angles();
-    for (std::size_t d = 0; d < kDigitCount; ++d) {
-      for (std::size_t i = 0; i < kHingeCount; ++i) {
-        const HingeRange range = range_of_motion(digit_at(d), i);
-        angles[d][i].flexion = random.uniform(range.flexion_min, range.flexion_max);
-      }
-    }
-    HandPose hand = generic_size_hand(side, angles);
-    const double size = random.uniform(0.7, 1.3);
-    for (Pose& joint : hand.joints) joint.position *= size;
-    const Quat turn = random.rotation();
-    const double reach_m = random.uniform(0.02, 0.15);
-    const double speed = random.uniform(0.02, 0.2);
-    HandCorrector corrector(settling());
-    for (int i = 0; i < 200; ++i) {
-      const Vec3 palm(reach_m * std::sin(speed * i), reach_m * std::cos(1.3 * speed * i),
-                      reach_m * std::sin(0.7 * speed * i));
-      const HandPose tracked = test::placed_hand(hand, palm, turn);
-      const HandPose drawn = corrector.update(tracked, object, i * kFrame_ns).pose;
-      ASSERT_TRUE(all_finite(drawn)) << "trial " << trial << ", frame " << i;
-      ASSERT_LT(limit_violation(tracked, drawn), 1e-6) << "trial " << trial << ", frame " << i;
-    }
   }
 }
 

@@ -1,0 +1,150 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <string>
+
+#include "nade/corrector.h"
+#include "nade/mesh.h"
+#include "support/hand_checks.h"
+#include "support/meshes.h"
+#include "support/random.h"
+
+namespace nade {
+namespace {
+
+constexpr int kFramesPerTrial = 200;
+constexpr double kSame_m = 1e-5;
+
+/// How many frames: NADE_TEST_FRAMES, 1000000 for a night.
+int frames_wanted() {
+  const char* wanted = std::getenv("NADE_TEST_FRAMES");
+  return wanted != nullptr ? std::max(kFramesPerTrial, std::atoi(wanted)) : 10'000;
+}
+
+Placement mirrored(Placement placement) {
+  placement.pose.position.x() = -placement.pose.position.x();
+  Quat& rotation = placement.pose.rotation;
+  rotation = Quat(rotation.w(), rotation.x(), -rotation.y(), -rotation.z());
+  return placement;
+}
+
+/// `exact` ones are their own mirror images. A mesh looks for the nearest triangle in single
+/// precision: of two that are nearly as near, the moved one may find the other, and a hand that is
+/// balanced on a hill goes down on the other side.
+struct TestSurface {
+  std::string name;
+  std::shared_ptr<const Surface> surface;
+  bool exact = false;
+};
+
+TestSurface random_surface(test::Random& random) {
+  const auto size = static_cast<float>(random.uniform(0.03, 0.3));
+  const auto mesh = [](const std::string& name, const TriangleSoup& soup) {
+    return TestSurface{name, MeshSurface::build(soup, name).value()};
+  };
+  switch (random.below(5)) {
+    case 0:
+      return {"ball", std::make_shared<SphereSurface>(random.uniform(0.03, 0.4)), true};
+    case 1:
+      return {"plane", std::make_shared<PlaneSurface>(), true};
+    case 2:
+      return mesh("hills", test::bumpy_sphere(size, 48, 24));
+    case 3:
+      return mesh("box", test::box_mesh({size, 0.6F * size, 0.8F * size}));
+    default:
+      return mesh("sheet", test::grid_mesh(size, 8));
+  }
+}
+
+HandPose random_hand(test::Random& random) {
+  HandAngles angles = test::relaxed_angles();
+  for (std::size_t d = 0; d < kDigitCount; ++d) {
+    for (std::size_t i = 0; i < kHingeCount; ++i) {
+      const HingeRange range = range_of_motion(digit_at(d), i);
+      angles[d][i].flexion = random.uniform(range.flexion_min, range.flexion_max);
+    }
+  }
+  const Handedness side = random.below(2) == 0 ? Handedness::right : Handedness::left;
+  HandPose hand = test::generic_size_hand(side, angles);
+  const double size = random.uniform(0.7, 1.3);
+  for (Pose& joint : hand.joints) joint.position *= size;
+  return hand;
+}
+
+/// Frames on meshes, and those in which the moved hand was the same.
+struct Tally {
+  int on_meshes = 0;
+  int same_on_meshes = 0;
+};
+
+/// One hand that wanders through one object, three times over: as it is, in the mirror, and moved
+/// together with the object.
+void expect_properties(test::Random& random, Tally& tally) {
+  const TestSurface surface = random_surface(random);
+  const double scale = random.uniform(0.7, 1.4);
+  const Placement placement{{random.point({-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}), random.rotation()},
+                            scale};
+  const Pose motion{random.point({-2.0, -2.0, -2.0}, {2.0, 2.0, 2.0}), random.rotation()};
+  const Object here(*surface.surface, placement);
+  const Object there(*surface.surface, {motion * placement.pose, scale});
+  const Object in_mirror(*surface.surface, mirrored(placement));
+  const HandPose hand = random_hand(random);
+  const Quat turn = random.rotation();
+  const Vec3 roll = random.direction();
+  const double reach_m = random.uniform(0.02, 0.2);
+  const double speed = random.uniform(0.01, 0.2);
+  HandCorrector corrector;
+  HandCorrector again;
+  HandCorrector moved_along;
+  HandCorrector other_side;
+  std::int64_t time_ns = 0;
+  for (int i = 0; i < kFramesPerTrial; ++i) {
+    time_ns += 5'000'000 + random.below(15'000'000);
+    const Vec3 palm(reach_m * std::sin(speed * i), reach_m * std::cos(1.3 * speed * i),
+                    reach_m * std::sin(0.7 * speed * i));
+    const Quat rolled(Eigen::AngleAxisd(0.3 * std::sin(0.4 * speed * i), roll));
+    const HandPose tracked = test::placed_hand(hand, placement.pose.position + palm, rolled * turn);
+    const CorrectedHand& corrected = corrector.update(tracked, here, time_ns);
+    const HandPose drawn = corrected.pose;
+    SCOPED_TRACE(testing::Message() << surface.name << ", frame " << i);
+    ASSERT_TRUE(test::all_finite(drawn));
+    ASSERT_LT(test::limit_violation(tracked, drawn), 1e-6);
+    if (corrected.status == HandStatus::free) {
+      ASSERT_TRUE(test::same_bits(tracked, drawn));
+    }
+    ASSERT_TRUE(test::same_bits(drawn, again.update(tracked, here, time_ns).pose));
+    const HandPose moved_drawn = moved_along.update(moved(tracked, motion), there, time_ns).pose;
+    const double moved_differs_m = largest_motion(moved(drawn, motion), moved_drawn);
+    if (!surface.exact) {
+      ++tally.on_meshes;
+      if (moved_differs_m < kSame_m) ++tally.same_on_meshes;
+      continue;
+    }
+    ASSERT_LT(moved_differs_m, kSame_m);
+    const HandPose mirror_drawn = other_side.update(mirrored(tracked), in_mirror, time_ns).pose;
+    ASSERT_LT(largest_motion(drawn, mirrored(mirror_drawn)), kSame_m);
+  }
+  const HandPose away =
+      test::placed_hand(hand, here.placement().pose.position + Vec3(0.0, 3.0, 0.0), turn);
+  if (surface.name == "plane") return;
+  corrector.update(away, here, time_ns + 1'000'000'000);
+  EXPECT_TRUE(test::same_bits(away, corrector.update(away, here, time_ns + 2'000'000'000).pose));
+}
+
+TEST(SettleProperties, HoldForRandomHandsSurfacesAndMotions) {
+  test::Random random;
+  SCOPED_TRACE(testing::Message() << "NADE_TEST_SEED=" << test::seed());
+  Tally tally;
+  const int trials = frames_wanted() / kFramesPerTrial;
+  for (int trial = 0; trial < trials; ++trial) {
+    SCOPED_TRACE(testing::Message() << "trial " << trial);
+    expect_properties(random, tally);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(tally.same_on_meshes, 0.95 * tally.on_meshes);
+}
+
+}  // namespace
+}  // namespace nade
