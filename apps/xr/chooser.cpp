@@ -22,13 +22,12 @@ constexpr int kLeave = 403;
 constexpr double kStep_m = 0.02;
 constexpr std::int64_t kBetweenTimes_ns = 1'000'000'000;
 
-constexpr std::array<Method, 3> kMethods{Method::none, Method::paper,
-                                         Method::nade};
-constexpr std::array<const char *, 3> kMethodNames{"none", "paper", "nade"};
+constexpr std::array<Method, 3> kMethods{Method::none, Method::paper, Method::nade};
+constexpr std::array<const char*, 3> kMethodNames{"none", "paper", "nade"};
 
-} // namespace
+}  // namespace
 
-std::string short_name(const std::string &object) {
+std::string short_name(const std::string& object) {
   const std::string before = object.substr(0, object.find(':'));
   const std::string stem = std::filesystem::path(before).stem().string();
   return stem.empty() ? object : stem;
@@ -45,30 +44,25 @@ void Chooser::rebuild() {
   study::PanelView panel;
   panel.heading = "nade";
   if (setup_.show_time) {
-    panel.lines.push_back(
-        fmt::format("correction {:.0f} µs a frame", time_us_));
+    panel.lines.push_back(fmt::format("correction {:.0f} µs a frame", time_us_));
   }
   std::vector<study::PanelButton> row;
   for (std::size_t i = 0; i < setup_.objects.size(); ++i) {
-    row.push_back({kFirstObject + static_cast<int>(i),
-                   short_name(setup_.objects[i]),
+    row.push_back({kFirstObject + static_cast<int>(i), short_name(setup_.objects[i]),
                    setup_.objects[i] == show_.object});
   }
   panel.rows.push_back(row);
   row.clear();
   for (std::size_t i = 0; i < kMethods.size(); ++i) {
-    row.push_back({kFirstMethod + static_cast<int>(i), kMethodNames[i],
-                   kMethods[i] == show_.method});
+    row.push_back(
+        {kFirstMethod + static_cast<int>(i), kMethodNames[i], kMethods[i] == show_.method});
   }
   panel.rows.push_back(row);
+  panel.rows.push_back({{kCorrected, "corrected", show_.shown == draw::Shown::corrected},
+                        {kGhost, "with ghost", show_.shown == draw::Shown::both},
+                        {kTracked, "as tracked", show_.shown == draw::Shown::tracked}});
   panel.rows.push_back(
-      {{kCorrected, "corrected", show_.shown == draw::Shown::corrected},
-       {kGhost, "with ghost", show_.shown == draw::Shown::both},
-       {kTracked, "as tracked", show_.shown == draw::Shown::tracked}});
-  panel.rows.push_back({{kRecentre, "recentre"},
-                        {kLower, "lower"},
-                        {kHigher, "higher"},
-                        {kLeave, "leave"}});
+      {{kRecentre, "recentre"}, {kLower, "lower"}, {kHigher, "higher"}, {kLeave, "leave"}});
   show_.panel = std::move(panel);
   changed_ = true;
 }
@@ -76,35 +70,24 @@ void Chooser::rebuild() {
 bool Chooser::changed() { return std::exchange(changed_, false); }
 
 void Chooser::press(int button) {
-  const auto at = [button](int first) {
-    return static_cast<std::size_t>(button - first);
-  };
+  const auto at = [button](int first) { return static_cast<std::size_t>(button - first); };
   if (button >= kFirstObject && at(kFirstObject) < setup_.objects.size()) {
     show_.object = setup_.objects[at(kFirstObject)];
   } else if (button >= kFirstMethod && at(kFirstMethod) < kMethods.size()) {
     show_.method = kMethods[at(kFirstMethod)];
   }
-  if (button == kCorrected)
-    show_.shown = draw::Shown::corrected;
-  if (button == kGhost)
-    show_.shown = draw::Shown::both;
-  if (button == kTracked)
-    show_.shown = draw::Shown::tracked;
-  if (button == kRecentre)
-    wishes_.recentre = true;
-  if (button == kLower)
-    wishes_.raise_m -= kStep_m;
-  if (button == kHigher)
-    wishes_.raise_m += kStep_m;
-  if (button == kLeave)
-    wishes_.leave = true;
+  if (button == kCorrected) show_.shown = draw::Shown::corrected;
+  if (button == kGhost) show_.shown = draw::Shown::both;
+  if (button == kTracked) show_.shown = draw::Shown::tracked;
+  if (button == kRecentre) wishes_.recentre = true;
+  if (button == kLower) wishes_.raise_m -= kStep_m;
+  if (button == kHigher) wishes_.raise_m += kStep_m;
+  if (button == kLeave) wishes_.leave = true;
   rebuild();
 }
 
-void Chooser::seen(const Moment &moment) {
-  if (!setup_.show_time ||
-      moment.motion.time_ns - time_told_ns_ < kBetweenTimes_ns)
-    return;
+void Chooser::seen(const Moment& moment) {
+  if (!setup_.show_time || moment.motion.time_ns - time_told_ns_ < kBetweenTimes_ns) return;
   time_told_ns_ = moment.motion.time_ns;
   time_us_ = moment.correction_us;
   rebuild();
@@ -112,4 +95,4 @@ void Chooser::seen(const Moment &moment) {
 
 Guide::Wishes Chooser::take_wishes() { return std::exchange(wishes_, {}); }
 
-} // namespace nade::xr
+}  // namespace nade::xr

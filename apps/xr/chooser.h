@@ -9,23 +9,22 @@ namespace nade::xr {
 
 /// Lets the person choose: object, method, what is shown, where it stands.
 class Chooser final : public Guide {
-public:
+ public:
   struct Setup {
-    std::vector<std::string>
-        objects; ///< as in RoomSetup; the first one is shown first
+    std::vector<std::string> objects;  ///< as in RoomSetup; the first one is shown first
     Method method = Method::nade;
     draw::Shown shown = draw::Shown::corrected;
     bool show_time = false;
   };
   explicit Chooser(Setup setup);
 
-  [[nodiscard]] const Show &show() override { return show_; }
+  [[nodiscard]] const Show& show() override { return show_; }
   [[nodiscard]] bool changed() override;
   void press(int button) override;
-  void seen(const Moment &moment) override;
+  void seen(const Moment& moment) override;
   [[nodiscard]] Wishes take_wishes() override;
 
-private:
+ private:
   void rebuild();
 
   Setup setup_;
@@ -37,6 +36,6 @@ private:
 };
 
 /// "sphere", "bunny": an object's name without folders and ending.
-[[nodiscard]] std::string short_name(const std::string &object);
+[[nodiscard]] std::string short_name(const std::string& object);
 
-} // namespace nade::xr
+}  // namespace nade::xr

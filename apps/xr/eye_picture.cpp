@@ -8,43 +8,34 @@
 
 namespace nade::xr {
 
-draw::Image read_back(const draw::Target &target) {
+draw::Image read_back(const draw::Target& target) {
   draw::Image image = draw::Image::blank(target.width, target.height);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, target.framebuffer);
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
-  glReadPixels(target.x, target.y, target.width, target.height, GL_RGBA,
-               GL_UNSIGNED_BYTE, image.rgba.data());
+  glReadPixels(target.x, target.y, target.width, target.height, GL_RGBA, GL_UNSIGNED_BYTE,
+               image.rgba.data());
   const auto row = static_cast<std::ptrdiff_t>(4) * target.width;
-  for (std::ptrdiff_t top = 0, bottom = target.height - 1; top < bottom;
-       ++top, --bottom) {
-    std::swap_ranges(image.rgba.begin() + top * row,
-                     image.rgba.begin() + (top + 1) * row,
+  for (std::ptrdiff_t top = 0, bottom = target.height - 1; top < bottom; ++top, --bottom) {
+    std::swap_ranges(image.rgba.begin() + top * row, image.rgba.begin() + (top + 1) * row,
                      image.rgba.begin() + bottom * row);
   }
   return image;
 }
 
-Status save_eyes(const std::string &path,
-                 const std::array<std::optional<draw::Image>, 2> &eyes) {
+Status save_eyes(const std::string& path, const std::array<std::optional<draw::Image>, 2>& eyes) {
   constexpr std::string_view kEnding = ".png";
-  const bool has_ending =
-      path.size() > kEnding.size() &&
-      std::string_view(path).substr(path.size() - kEnding.size()) == kEnding;
-  const std::string stem =
-      has_ending ? path.substr(0, path.size() - kEnding.size()) : path;
+  const bool has_ending = path.size() > kEnding.size() &&
+                          std::string_view(path).substr(path.size() - kEnding.size()) == kEnding;
+  const std::string stem = has_ending ? path.substr(0, path.size() - kEnding.size()) : path;
   for (std::size_t eye = 0; eye < 2; ++eye) {
     if (!eyes[eye]) {
-      return Error{
-          ErrorCode::unwritable,
-          fmt::format("{}: no picture of the eyes was drawn in the last frame",
-                      path)};
+      return Error{ErrorCode::unwritable,
+                   fmt::format("{}: no picture of the eyes was drawn in the last frame", path)};
     }
-    const std::string name =
-        stem + (eye == 0 ? "-left" : "-right") + std::string(kEnding);
-    if (Status saved = draw::save_png(name, *eyes[eye]); !saved)
-      return saved;
+    const std::string name = stem + (eye == 0 ? "-left" : "-right") + std::string(kEnding);
+    if (Status saved = draw::save_png(name, *eyes[eye]); !saved) return saved;
   }
   return ok_status();
 }
 
-} // namespace nade::xr
+}  // namespace nade::xr

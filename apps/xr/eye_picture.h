@@ -10,11 +10,10 @@
 namespace nade::xr {
 
 /// What a framebuffer of the current context holds.
-[[nodiscard]] draw::Image read_back(const draw::Target &target);
+[[nodiscard]] draw::Image read_back(const draw::Target& target);
 
 /// "eyes.png" gives "eyes-left.png" and "eyes-right.png".
-[[nodiscard]] Status
-save_eyes(const std::string &path,
-          const std::array<std::optional<draw::Image>, 2> &eyes);
+[[nodiscard]] Status save_eyes(const std::string& path,
+                               const std::array<std::optional<draw::Image>, 2>& eyes);
 
-} // namespace nade::xr
+}  // namespace nade::xr

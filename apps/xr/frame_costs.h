@@ -10,17 +10,14 @@ namespace nade::xr {
 
 /// The last frames' costs, in room made beforehand.
 class FrameCosts {
-public:
+ public:
   FrameCosts();
 
-  /// Does not allocate. The first frames, in which drivers compile, do not
-  /// count.
-  void add(const FrameCost &cost) noexcept;
+  /// Does not allocate. The first frames, in which drivers compile, do not count.
+  void add(const FrameCost& cost) noexcept;
   [[nodiscard]] std::size_t frames() const { return counted_; }
   /// Of the corrections, the median; milliseconds; 0 before there are any.
-  [[nodiscard]] double last_correction_us() const {
-    return last_correction_us_;
-  }
+  [[nodiscard]] double last_correction_us() const { return last_correction_us_; }
 
   struct Sum {
     double median_ms = 0.0;
@@ -34,7 +31,7 @@ public:
   };
   [[nodiscard]] Report report() const;
 
-private:
+ private:
   std::vector<FrameCost> costs_;
   std::size_t seen_ = 0;
   std::size_t counted_ = 0;
@@ -42,6 +39,6 @@ private:
 };
 
 /// The report as sentences for a person.
-[[nodiscard]] std::string as_text(const FrameCosts &costs);
+[[nodiscard]] std::string as_text(const FrameCosts& costs);
 
-} // namespace nade::xr
+}  // namespace nade::xr

@@ -6,4 +6,4 @@ Result<std::unique_ptr<GraphicsBinding>> bind(GraphicsWay way) {
   return way == GraphicsWay::egl ? bind_egl() : bind_xlib();
 }
 
-} // namespace nade::xr
+}  // namespace nade::xr

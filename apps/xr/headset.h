@@ -17,30 +17,26 @@ struct EyeSize {
   int height = 0;
 };
 
-/// A runtime that was found, and the headset it offers: OpenXR's instance and
-/// system.
+/// A runtime that was found, and the headset it offers: OpenXR's instance and system.
 class Headset {
-public:
-  /// `graphics` are the ways of drawing that may be taken, the best first. The
-  /// error says in one sentence what is missing, and what to do: no loader, no
-  /// runtime, no headset, no hand tracking, no OpenGL.
-  [[nodiscard]] static Result<Headset>
-  find(std::span<const GraphicsWay> graphics);
+ public:
+  /// `graphics` are the ways of drawing that may be taken, the best first. The error says in one
+  /// sentence what is missing, and what to do: no loader, no runtime, no headset, no hand tracking,
+  /// no OpenGL.
+  [[nodiscard]] static Result<Headset> find(std::span<const GraphicsWay> graphics);
 
-  [[nodiscard]] const XrApi &api() const { return api_; }
+  [[nodiscard]] const XrApi& api() const { return api_; }
   [[nodiscard]] XrInstance instance() const { return instance_.get(); }
   [[nodiscard]] XrSystemId system() const { return system_; }
-  [[nodiscard]] const std::array<EyeSize, 2> &eyes() const { return eyes_; }
-  [[nodiscard]] XrEnvironmentBlendMode blend_mode() const {
-    return blend_mode_;
-  }
+  [[nodiscard]] const std::array<EyeSize, 2>& eyes() const { return eyes_; }
+  [[nodiscard]] XrEnvironmentBlendMode blend_mode() const { return blend_mode_; }
   [[nodiscard]] GraphicsWay graphics() const { return graphics_; }
   [[nodiscard]] bool has_local_floor() const { return local_floor_; }
   [[nodiscard]] bool has_data_source() const { return data_source_; }
   /// The runtime's and the headset's own names.
-  [[nodiscard]] const std::string &name() const { return name_; }
+  [[nodiscard]] const std::string& name() const { return name_; }
 
-private:
+ private:
   Headset() = default;
   [[nodiscard]] Status create_instance(std::span<const GraphicsWay> graphics);
   [[nodiscard]] Status find_system();
@@ -57,4 +53,4 @@ private:
   std::string name_;
 };
 
-} // namespace nade::xr
+}  // namespace nade::xr

@@ -26,8 +26,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kIdle{10};
 constexpr std::chrono::seconds kBetweenTries{1};
 constexpr std::chrono::seconds kPatience{180};
-/// A runtime that does not answer a request to leave is left without its
-/// answer.
+/// A runtime that does not answer a request to leave is left without its answer.
 constexpr std::chrono::seconds kFarewell{5};
 
 std::atomic<int> interrupts{0};
@@ -35,7 +34,7 @@ extern "C" void note_interrupt(int /*signal*/) { interrupts.fetch_add(1); }
 
 /// Ctrl-C and `kill` end the run in order, for as long as this lives.
 class Interruptible {
-public:
+ public:
   Interruptible() {
     interrupts.store(0);
     struct sigaction ours {};
@@ -43,67 +42,65 @@ public:
     sigaction(SIGINT, &ours, &before_int_);
     sigaction(SIGTERM, &ours, &before_term_);
   }
-  Interruptible(const Interruptible &) = delete;
-  Interruptible &operator=(const Interruptible &) = delete;
+  Interruptible(const Interruptible&) = delete;
+  Interruptible& operator=(const Interruptible&) = delete;
   ~Interruptible() {
     sigaction(SIGINT, &before_int_, nullptr);
     sigaction(SIGTERM, &before_term_, nullptr);
   }
 
-private:
+ private:
   struct sigaction before_int_ {};
   struct sigaction before_term_ {};
 };
 
-void say(const std::string &sentence) {
-  std::fprintf(stderr, "nade: %s\n", sentence.c_str());
-}
+void say(const std::string& sentence) { std::fprintf(stderr, "nade: %s\n", sentence.c_str()); }
 
 std::string_view name_of(Method method) {
   switch (method) {
-  case Method::none:
-    return "none";
-  case Method::paper:
-    return "paper";
-  case Method::nade:
-    break;
+    case Method::none:
+      return "none";
+    case Method::paper:
+      return "paper";
+    case Method::nade:
+      break;
   }
   return "nade";
 }
 
 /// One run: what outlives sessions and runtimes, and what is done with them.
 class Loop {
-public:
+ public:
   /// `mirror` may be null.
-  Loop(const HeadsetRun &run, Guide &guide, MirrorFeed *mirror)
+  Loop(const HeadsetRun& run, Guide& guide, MirrorFeed* mirror)
       : run_(run), guide_(guide), mirror_(mirror) {}
 
   Status go(RoomSetup setup);
 
-private:
-  Status begin(RoomSetup setup, const Headset &headset);
+ private:
+  Status begin(RoomSetup setup, const Headset& headset);
   [[nodiscard]] Result<Headset> find_headset() const;
   [[nodiscard]] Result<Headset> find_again();
-  Fate run_session(HeadsetSession &session);
-  void show_frame(HeadsetSession &session);
-  void draw_eyes(HeadsetSession &session, const TrackedFrame &frame);
+  Fate run_session(HeadsetSession& session);
+  void show_frame(HeadsetSession& session);
+  void draw_eyes(HeadsetSession& session, const TrackedFrame& frame);
   void follow_guide();
-  void obey(const Guide::Wishes &wishes);
-  void tell_guide(const TrackedFrame &frame);
+  void obey(const Guide::Wishes& wishes);
+  void tell_guide(const TrackedFrame& frame);
   void record();
   void change_recording();
   Status finish_recording();
   [[nodiscard]] bool wants_out() const;
 
-  const HeadsetRun &run_;
-  Guide &guide_;
+  const HeadsetRun& run_;
+  Guide& guide_;
   std::unique_ptr<GraphicsBinding> binding_;
   std::unique_ptr<Room> room_;
-  MirrorFeed *mirror_ = nullptr;
+  MirrorFeed* mirror_ = nullptr;
   std::unique_ptr<study::MotionRecorder> recorder_;
   int recordings_ = 0;
   std::optional<PanelLog> panel_log_;
-  std::optional<RecordedAs> recorded_as_; ///< while a recording goes on
+  std::optional<RecordedAs> recorded_as_;  ///< while a recording goes on
   std::string headset_name_;
   FrameCosts costs_;
   std::size_t shown_ = 0;
@@ -116,30 +113,24 @@ private:
 };
 
 bool Loop::wants_out() const {
-  return leave_ || interrupts.load() > 0 ||
-         (run_.frames && shown_ >= *run_.frames) ||
+  return leave_ || interrupts.load() > 0 || (run_.frames && shown_ >= *run_.frames) ||
          (mirror_ && mirror_->closed());
 }
 
-Status Loop::begin(RoomSetup setup, const Headset &headset) {
-  if (run_.panel_log)
-    panel_log_.emplace(*run_.panel_log);
+Status Loop::begin(RoomSetup setup, const Headset& headset) {
+  if (run_.panel_log) panel_log_.emplace(*run_.panel_log);
   Result<std::unique_ptr<GraphicsBinding>> binding = bind(headset.graphics());
-  if (!binding)
-    return binding.error();
+  if (!binding) return binding.error();
   binding_ = std::move(binding).value();
   Result<std::unique_ptr<Room>> room = Room::create(std::move(setup));
-  if (!room)
-    return room.error();
+  if (!room) return room.error();
   room_ = std::move(room).value();
   return ok_status();
 }
 
 Result<Headset> Loop::find_headset() const {
-  constexpr std::array<GraphicsWay, 2> kBoth{GraphicsWay::egl,
-                                             GraphicsWay::xlib};
-  if (!run_.graphics)
-    return Headset::find(kBoth);
+  constexpr std::array<GraphicsWay, 2> kBoth{GraphicsWay::egl, GraphicsWay::xlib};
+  if (!run_.graphics) return Headset::find(kBoth);
   return Headset::find(std::array<GraphicsWay, 1>{*run_.graphics});
 }
 
@@ -148,8 +139,7 @@ Result<Headset> Loop::find_again() {
   while (true) {
     std::this_thread::sleep_for(kBetweenTries);
     Result<Headset> headset = find_headset();
-    if (headset || wants_out() || Clock::now() - start > kPatience)
-      return headset;
+    if (headset || wants_out() || Clock::now() - start > kPatience) return headset;
   }
 }
 
@@ -165,45 +155,36 @@ Status Loop::go(RoomSetup setup) {
     headset_name_ = headset->name();
     say(headset_name_);
     if (first) {
-      if (Status begun = begin(std::move(setup), *headset); !begun)
-        return begun;
+      if (Status begun = begin(std::move(setup), *headset); !begun) return begun;
     }
     first = false;
-    Result<std::unique_ptr<HeadsetSession>> session =
-        HeadsetSession::create(*headset, *binding_);
-    if (!session)
-      return session.error();
+    Result<std::unique_ptr<HeadsetSession>> session = HeadsetSession::create(*headset, *binding_);
+    if (!session) return session.error();
     room_->restart();
     const Fate fate = run_session(**session);
     if (fate == Fate::failed) {
       static_cast<void>(finish_recording());
       return Error{ErrorCode::not_found, (*session)->complaint()};
     }
-    if (fate == Fate::ended || wants_out())
-      break;
+    if (fate == Fate::ended || wants_out()) break;
     say(fate == Fate::session_lost
             ? "the headset's session was lost: beginning another (Ctrl-C ends)"
-            : "the headset's runtime has gone: waiting for it to come back "
-              "(Ctrl-C ends)");
+            : "the headset's runtime has gone: waiting for it to come back (Ctrl-C ends)");
   }
-  if (Status finished = finish_recording(); !finished)
-    return finished;
-  if (run_.report)
-    std::printf("%s\n", as_text(costs_).c_str());
-  if (!run_.screenshot)
-    return ok_status();
+  if (Status finished = finish_recording(); !finished) return finished;
+  if (run_.report) std::printf("%s\n", as_text(costs_).c_str());
+  if (!run_.screenshot) return ok_status();
   return save_eyes(*run_.screenshot, screenshots_);
 }
 
-Fate Loop::run_session(HeadsetSession &session) {
+Fate Loop::run_session(HeadsetSession& session) {
   std::optional<Clock::time_point> asked_to_leave;
   while (session.poll() == Fate::goes_on) {
     if (wants_out() && !asked_to_leave) {
       session.request_exit();
       asked_to_leave = Clock::now();
     }
-    if (asked_to_leave &&
-        (interrupts.load() > 1 || Clock::now() - *asked_to_leave > kFarewell)) {
+    if (asked_to_leave && (interrupts.load() > 1 || Clock::now() - *asked_to_leave > kFarewell)) {
       return Fate::ended;
     }
     if (!session.running()) {
@@ -215,108 +196,89 @@ Fate Loop::run_session(HeadsetSession &session) {
   return session.fate();
 }
 
-void Loop::show_frame(HeadsetSession &session) {
+void Loop::show_frame(HeadsetSession& session) {
   follow_guide();
-  const TrackedFrame *const frame = session.begin_frame();
-  if (frame == nullptr)
-    return;
+  const TrackedFrame* const frame = session.begin_frame();
+  if (frame == nullptr) return;
   if (frame->draw) {
     room_->update(*frame);
     draw_eyes(session, *frame);
   }
   session.end_frame();
-  if (!frame->draw)
-    return;
+  if (!frame->draw) return;
   ++shown_;
   costs_.add(room_->cost());
   tell_guide(*frame);
   if (!frame->own_hands && !std::exchange(warned_of_controllers_, true)) {
-    say("the hands are made up from the controllers: put them down to use your "
-        "own");
+    say("the hands are made up from the controllers: put them down to use your own");
   }
 }
 
-void Loop::draw_eyes(HeadsetSession &session, const TrackedFrame &frame) {
+void Loop::draw_eyes(HeadsetSession& session, const TrackedFrame& frame) {
   std::array<draw::Sight, 2> eyes;
   for (std::size_t eye = 0; eye < 2; ++eye) {
     const std::optional<draw::Target> target = session.acquire(eye);
-    if (!target)
-      return;
+    if (!target) return;
     eyes[eye] = {frame.eyes[eye], *target};
   }
   room_->draw(eyes);
   if (run_.screenshot && run_.frames && shown_ + 1 >= *run_.frames) {
-    for (std::size_t eye = 0; eye < 2; ++eye)
-      screenshots_[eye] = read_back(eyes[eye].target);
+    for (std::size_t eye = 0; eye < 2; ++eye) screenshots_[eye] = read_back(eyes[eye].target);
   }
-  if (mirror_ != nullptr)
-    mirror_->take(eyes[0].target, *room_);
-  for (std::size_t eye = 0; eye < 2; ++eye)
-    session.release(eye);
+  if (mirror_ != nullptr) mirror_->take(eyes[0].target, *room_);
+  for (std::size_t eye = 0; eye < 2; ++eye) session.release(eye);
 }
 
 void Loop::follow_guide() {
-  if (!guide_.changed())
-    return;
+  if (!guide_.changed()) return;
   room_->set(guide_.show());
-  if (run_.record)
-    change_recording();
+  if (run_.record) change_recording();
 }
 
-void Loop::obey(const Guide::Wishes &wishes) {
-  if (wishes.recentre)
-    room_->recentre();
-  if (wishes.raise_m != 0.0)
-    room_->raise(wishes.raise_m);
+void Loop::obey(const Guide::Wishes& wishes) {
+  if (wishes.recentre) room_->recentre();
+  if (wishes.raise_m != 0.0) room_->raise(wishes.raise_m);
   leave_ = leave_ || wishes.leave;
 }
 
 /// Seen from the spot: every pose, contact and normal of a hand.
-void see_from(const Pose &spot, const Room::Hand &hand,
-              std::optional<HandPose> &tracked,
-              std::optional<CorrectedHand> &corrected) {
+void see_from(const Pose& spot, const Room::Hand& hand, std::optional<HandPose>& tracked,
+              std::optional<CorrectedHand>& corrected) {
   const Pose back = spot.inverse();
   tracked = moved(hand.tracked, back);
   corrected = hand.corrected;
   corrected->pose = moved(hand.corrected.pose, back);
-  for (auto &contact : corrected->contacts) {
-    if (!contact)
-      continue;
+  for (auto& contact : corrected->contacts) {
+    if (!contact) continue;
     contact->surface_point = back.apply(contact->surface_point);
     contact->normal = back.rotation * contact->normal;
   }
 }
 
-void Loop::tell_guide(const TrackedFrame &frame) {
-  if (room_->pressed())
-    guide_.press(*room_->pressed());
+void Loop::tell_guide(const TrackedFrame& frame) {
+  if (room_->pressed()) guide_.press(*room_->pressed());
   const Pose spot = room_->object_spot();
-  study::MotionFrame &motion = moment_.motion;
+  study::MotionFrame& motion = moment_.motion;
   motion.time_ns = std::max(motion.time_ns + 1, frame.time_ns);
   motion.head.reset();
-  if (frame.head)
-    motion.head = spot.inverse() * *frame.head;
+  if (frame.head) motion.head = spot.inverse() * *frame.head;
   for (std::size_t side = 0; side < 2; ++side) {
     motion.tracked[side].reset();
     motion.corrected[side].reset();
-    const auto &hand = room_->hands()[side];
-    if (hand)
-      see_from(spot, *hand, motion.tracked[side], motion.corrected[side]);
+    const auto& hand = room_->hands()[side];
+    if (hand) see_from(spot, *hand, motion.tracked[side], motion.corrected[side]);
   }
   moment_.object = room_->placement();
   moment_.correction_us = costs_.last_correction_us();
-  if (recorded_as_)
-    record();
-  if (panel_log_)
-    panel_log_->note(*room_);
+  if (recorded_as_) record();
+  if (panel_log_) panel_log_->note(*room_);
   guide_.seen(moment_);
   obey(guide_.take_wishes());
 }
 
 void Loop::record() {
   // A recording starts at time 0.
-  if (!recorded_from_ns_)
-    recorded_from_ns_ = moment_.motion.time_ns;
+  if (!recorded_from_ns_) recorded_from_ns_ = moment_.motion.time_ns;
   recorded_ = moment_.motion;
   recorded_.time_ns -= *recorded_from_ns_;
   recorder_->push(recorded_);
@@ -328,47 +290,36 @@ void Loop::change_recording() {
   as.placement = room_->placement();
   as.method = name_of(room_->show().method);
   as.headset = headset_name_;
-  if (recorded_as_ == as)
-    return;
-  if (recorded_as_)
-    recorder_->end();
+  if (recorded_as_ == as) return;
+  if (recorded_as_) recorder_->end();
   recorded_as_.reset();
   recorded_from_ns_.reset();
-  if (as.object.empty())
-    return;
-  if (!recorder_)
-    recorder_ = std::make_unique<study::MotionRecorder>();
-  recorder_->begin(
-      motion_files(numbered_path(*run_.record, ++recordings_), as));
+  if (as.object.empty()) return;
+  if (!recorder_) recorder_ = std::make_unique<study::MotionRecorder>();
+  recorder_->begin(motion_files(numbered_path(*run_.record, ++recordings_), as));
   recorded_as_ = as;
 }
 
 Status Loop::finish_recording() {
-  if (!recorder_)
-    return ok_status();
-  if (recorded_as_)
-    recorder_->end();
+  if (!recorder_) return ok_status();
+  if (recorded_as_) recorder_->end();
   recorded_as_.reset();
   recorder_->drain();
-  if (const auto failure = recorder_->take_failure())
-    return *failure;
+  if (const auto failure = recorder_->take_failure()) return *failure;
   if (const std::size_t dropped = recorder_->dropped(); dropped > 0) {
     return Error{ErrorCode::unwritable,
-                 fmt::format("{}: the disk was too slow for {} frames, which "
-                             "the recording lacks",
+                 fmt::format("{}: the disk was too slow for {} frames, which the recording lacks",
                              *run_.record, dropped)};
   }
   return ok_status();
 }
 
-} // namespace
+}  // namespace
 
-Status run_headset(const HeadsetRun &run, RoomSetup room, Guide &guide) {
-  if (!run.mirror)
-    return Loop(run, guide, nullptr).go(std::move(room));
+Status run_headset(const HeadsetRun& run, RoomSetup room, Guide& guide) {
+  if (!run.mirror) return Loop(run, guide, nullptr).go(std::move(room));
   Result<MirrorWindow> window = MirrorWindow::open();
-  if (!window)
-    return window.error();
+  if (!window) return window.error();
   MirrorFeed feed;
   Status status = ok_status();
   // Windows belong to the main thread; the headset's frames do not care.
@@ -381,4 +332,4 @@ Status run_headset(const HeadsetRun &run, RoomSetup room, Guide &guide) {
   return status;
 }
 
-} // namespace nade::xr
+}  // namespace nade::xr

@@ -22,23 +22,21 @@ struct MirrorFigures {
   FrameCost cost;
   double frames_a_second = 0.0;
   std::array<HandStatus, 2> hands{HandStatus::untracked, HandStatus::untracked};
-  std::array<double, 2>
-      depth_m{}; ///< how deep the tracked hand's deepest part has sunk in
+  std::array<double, 2> depth_m{};  ///< how deep the tracked hand's deepest part has sunk in
 };
 
-/// Carries what the participant's left eye sees from the frames' thread to the
-/// window's, some times a second. Frames never wait for it.
+/// Carries what the participant's left eye sees from the frames' thread to the window's, some times
+/// a second. Frames never wait for it.
 class MirrorFeed {
-public:
+ public:
   MirrorFeed() = default;
-  MirrorFeed(const MirrorFeed &) = delete;
-  MirrorFeed &operator=(const MirrorFeed &) = delete;
+  MirrorFeed(const MirrorFeed&) = delete;
+  MirrorFeed& operator=(const MirrorFeed&) = delete;
 
-  /// The eye's picture, drawn and not yet given back; called in the frame, in
-  /// its context.
-  void take(const draw::Target &eye, const Room &room);
+  /// The eye's picture, drawn and not yet given back; called in the frame, in its context.
+  void take(const draw::Target& eye, const Room& room);
   /// The newest picture, bottom row first; false where there is no newer one.
-  [[nodiscard]] bool give(draw::Image &picture, MirrorFigures &figures);
+  [[nodiscard]] bool give(draw::Image& picture, MirrorFigures& figures);
 
   /// There will be no more frames.
   void end() { ended_.store(true); }
@@ -47,11 +45,11 @@ public:
   void close() { closed_.store(true); }
   [[nodiscard]] bool closed() const { return closed_.load(); }
 
-private:
+ private:
   void fetch();
 
-  unsigned buffer_ = 0;   ///< on the graphics card, where the picture waits
-  void *fence_ = nullptr; ///< passed when it has arrived there
+  unsigned buffer_ = 0;    ///< on the graphics card, where the picture waits
+  void* fence_ = nullptr;  ///< passed when it has arrived there
   int width_ = 0;
   int height_ = 0;
   std::int64_t last_ns_ = 0;
@@ -60,7 +58,7 @@ private:
   std::atomic<bool> ended_{false};
   std::atomic<bool> closed_{false};
   MirrorFigures taken_;
-  std::mutex mutex_; ///< of what follows
+  std::mutex mutex_;  ///< of what follows
   draw::Image picture_;
   MirrorFigures figures_;
   bool fresh_ = false;
@@ -68,21 +66,20 @@ private:
 
 /// The operator's window. Of the main thread.
 class MirrorWindow {
-public:
+ public:
   /// The error says that there is no display.
   [[nodiscard]] static Result<MirrorWindow> open();
 
-  /// Shows what the feed carries until it has ended; tells it when the window
-  /// is closed.
-  void show(MirrorFeed &feed);
+  /// Shows what the feed carries until it has ended; tells it when the window is closed.
+  void show(MirrorFeed& feed);
 
-private:
+ private:
   struct Closer {
-    void operator()(GLFWwindow *window) const;
+    void operator()(GLFWwindow* window) const;
   };
-  explicit MirrorWindow(GLFWwindow *window) : window_(window) {}
+  explicit MirrorWindow(GLFWwindow* window) : window_(window) {}
 
   std::unique_ptr<GLFWwindow, Closer> window_;
 };
 
-} // namespace nade::xr
+}  // namespace nade::xr

@@ -12,19 +12,18 @@ struct RecordedAs {
   Placement placement;
   std::string method;
   std::string headset;
-  friend bool operator==(const RecordedAs &a, const RecordedAs &b) {
+  friend bool operator==(const RecordedAs& a, const RecordedAs& b) {
     return a.object == b.object && a.method == b.method;
   }
 };
 
-/// The recording of the tracked hands at `path`, of the corrected hands at
-/// `corrected_path(path)`. Takes away what is there by those names.
-[[nodiscard]] study::MotionFiles motion_files(const std::string &path,
-                                              const RecordedAs &as);
+/// The recording of the tracked hands at `path`, of the corrected hands at `corrected_path(path)`.
+/// Takes away what is there by those names.
+[[nodiscard]] study::MotionFiles motion_files(const std::string& path, const RecordedAs& as);
 
 /// "stroke.jsonl.gz" gives "stroke-corrected.jsonl.gz".
-[[nodiscard]] std::string corrected_path(const std::string &path);
+[[nodiscard]] std::string corrected_path(const std::string& path);
 /// "stroke.jsonl" and 2 give "stroke-2.jsonl"; 1 gives it as it is.
-[[nodiscard]] std::string numbered_path(const std::string &path, int number);
+[[nodiscard]] std::string numbered_path(const std::string& path, int number);
 
-} // namespace nade::xr
+}  // namespace nade::xr

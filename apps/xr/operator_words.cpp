@@ -13,15 +13,13 @@ std::optional<std::string> OperatorWords::next() {
     std::array<char, 256> bytes{};
     const ssize_t count = read(STDIN_FILENO, bytes.data(), bytes.size());
     ended_ = count <= 0;
-    if (count > 0)
-      typed_.append(bytes.data(), static_cast<std::size_t>(count));
+    if (count > 0) typed_.append(bytes.data(), static_cast<std::size_t>(count));
   }
   const std::size_t end = typed_.find('\n');
-  if (end == std::string::npos)
-    return std::nullopt;
+  if (end == std::string::npos) return std::nullopt;
   std::string line = typed_.substr(0, end);
   typed_.erase(0, end + 1);
   return line;
 }
 
-} // namespace nade::xr
+}  // namespace nade::xr

@@ -7,14 +7,13 @@ namespace nade::xr {
 
 /// Lines that the operator types while frames go on.
 class OperatorWords {
-public:
-  /// The next whole line of standard input, without its end, if there is one
-  /// now. Never waits.
+ public:
+  /// The next whole line of standard input, without its end, if there is one now. Never waits.
   [[nodiscard]] std::optional<std::string> next();
 
-private:
+ private:
   std::string typed_;
   bool ended_ = false;
 };
 
-} // namespace nade::xr
+}  // namespace nade::xr

@@ -39,23 +39,19 @@ const Color kPale(0.35F, 0.35F, 0.35F);
 const Color kOnChosen(1.0F, 1.0F, 1.0F);
 
 /// A filled rectangle with round corners.
-void fill(Image &image, const ButtonPlace &place, const Rgb &color,
-          int corner) {
+void fill(Image& image, const ButtonPlace& place, const Rgb& color, int corner) {
   const double r = corner;
-  for (int y = std::max(0, place.y);
-       y < std::min(image.height, place.y + place.height); ++y) {
-    for (int x = std::max(0, place.x);
-         x < std::min(image.width, place.x + place.width); ++x) {
-      const double from_x = std::max(
-          {place.x + r - x - 0.5, x + 0.5 - (place.x + place.width - r), 0.0});
-      const double from_y = std::max(
-          {place.y + r - y - 0.5, y + 0.5 - (place.y + place.height - r), 0.0});
-      if (std::hypot(from_x, from_y) > r)
-        continue;
-      std::uint8_t *const pixel =
-          image.rgba.data() + 4 * (static_cast<std::size_t>(y) *
-                                       static_cast<std::size_t>(image.width) +
-                                   static_cast<std::size_t>(x));
+  for (int y = std::max(0, place.y); y < std::min(image.height, place.y + place.height); ++y) {
+    for (int x = std::max(0, place.x); x < std::min(image.width, place.x + place.width); ++x) {
+      const double from_x =
+          std::max({place.x + r - x - 0.5, x + 0.5 - (place.x + place.width - r), 0.0});
+      const double from_y =
+          std::max({place.y + r - y - 0.5, y + 0.5 - (place.y + place.height - r), 0.0});
+      if (std::hypot(from_x, from_y) > r) continue;
+      std::uint8_t* const pixel =
+          image.rgba.data() +
+          4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+               static_cast<std::size_t>(x));
       pixel[0] = color.r;
       pixel[1] = color.g;
       pixel[2] = color.b;
@@ -64,35 +60,27 @@ void fill(Image &image, const ButtonPlace &place, const Rgb &color,
   }
 }
 
-/// Lines no wider than `width`, broken at spaces; what has none is broken
-/// between characters.
-std::vector<std::string> broken(std::string_view text, float height_px,
-                                float width) {
+/// Lines no wider than `width`, broken at spaces; what has none is broken between characters.
+std::vector<std::string> broken(std::string_view text, float height_px, float width) {
   std::vector<std::string> lines(1);
   std::size_t at = 0;
   while (at < text.size()) {
     std::size_t end = at;
-    while (end < text.size() && text[end] != ' ')
-      ++end;
-    while (end < text.size() && text[end] == ' ')
-      ++end;
+    while (end < text.size() && text[end] != ' ') ++end;
+    while (end < text.size() && text[end] == ' ') ++end;
     std::string word(text.substr(at, end - at));
     at = end;
-    if (draw::text_width(lines.back() + word, height_px) > width &&
-        !lines.back().empty()) {
+    if (draw::text_width(lines.back() + word, height_px) > width && !lines.back().empty()) {
       lines.emplace_back();
     }
     while (draw::text_width(word, height_px) > width && word.size() > 1) {
       std::size_t fits = 0;
       for (std::size_t next = 1; next < word.size(); ++next) {
-        if ((static_cast<unsigned char>(word[next]) & 0xC0U) == 0x80U)
-          continue;
-        if (draw::text_width(word.substr(0, next), height_px) > width)
-          break;
+        if ((static_cast<unsigned char>(word[next]) & 0xC0U) == 0x80U) continue;
+        if (draw::text_width(word.substr(0, next), height_px) > width) break;
         fits = next;
       }
-      if (fits == 0)
-        break;
+      if (fits == 0) break;
       lines.back() += word.substr(0, fits);
       lines.emplace_back();
       word.erase(0, fits);
@@ -102,19 +90,17 @@ std::vector<std::string> broken(std::string_view text, float height_px,
   return lines;
 }
 
-/// Puts a panel's parts below each other; nothing is drawn where `image` is
-/// null.
+/// Puts a panel's parts below each other; nothing is drawn where `image` is null.
 class Layout {
-public:
-  Layout(Image *image, float scale) : image_(image), scale_(scale) {}
+ public:
+  Layout(Image* image, float scale) : image_(image), scale_(scale) {}
 
   void text(std::string_view text, float height_px) {
     const float height = scale_ * height_px;
     constexpr float kWidth = kPanelWidth_px - 2 * kMargin;
-    for (const std::string &line : broken(text, height, kWidth)) {
+    for (const std::string& line : broken(text, height, kWidth)) {
       if (image_ != nullptr) {
-        draw::draw_text(*image_, kMargin, static_cast<float>(y_), line, height,
-                        kInk);
+        draw::draw_text(*image_, kMargin, static_cast<float>(y_), line, height, kInk);
       }
       y_ += static_cast<int>(std::lround(kLeading * height));
     }
@@ -122,19 +108,15 @@ public:
 
   void gap() { y_ += static_cast<int>(std::lround(kGap * scale_)); }
 
-  void row(const std::vector<study::PanelButton> &buttons,
-           std::vector<ButtonPlace> &places) {
-    if (buttons.empty())
-      return;
+  void row(const std::vector<study::PanelButton>& buttons, std::vector<ButtonPlace>& places) {
+    if (buttons.empty()) return;
     const auto count = static_cast<int>(buttons.size());
     const int height = static_cast<int>(std::lround(kButtonHeight * scale_));
-    const int width =
-        (kPanelWidth_px - 2 * kMargin - (count - 1) * kGap) / count;
+    const int width = (kPanelWidth_px - 2 * kMargin - (count - 1) * kGap) / count;
     for (int i = 0; i < count; ++i) {
-      const study::PanelButton &button = buttons[static_cast<std::size_t>(i)];
-      const ButtonPlace place{
-          button.id, button.enabled, kMargin + i * (width + kGap),
-          y_,        width,          height};
+      const study::PanelButton& button = buttons[static_cast<std::size_t>(i)];
+      const ButtonPlace place{button.id, button.enabled, kMargin + i * (width + kGap),
+                              y_,        width,          height};
       if (image_ != nullptr) {
         draw_button(button, place);
         places.push_back(place);
@@ -145,61 +127,49 @@ public:
 
   [[nodiscard]] int bottom() const { return y_; }
 
-private:
-  void draw_button(const study::PanelButton &button, const ButtonPlace &place) {
-    fill(*image_, place,
-         button.chosen    ? kChosen
-         : button.enabled ? kButton
-                          : kDisabled,
-         18);
+ private:
+  void draw_button(const study::PanelButton& button, const ButtonPlace& place) {
+    fill(*image_, place, button.chosen ? kChosen : button.enabled ? kButton : kDisabled, 18);
     float height = scale_ * kLineHeight;
     const float room = static_cast<float>(place.width) - 14.0F;
     const float width = draw::text_width(button.label, height);
-    if (width > room)
-      height *= std::max(0.4F, room / width);
-    const float x = static_cast<float>(place.x) +
-                    0.5F * (static_cast<float>(place.width) -
-                            draw::text_width(button.label, height));
-    const float y = static_cast<float>(place.y) +
-                    0.5F * (static_cast<float>(place.height) - height);
-    const Color &ink = button.chosen    ? kOnChosen
-                       : button.enabled ? kInk
-                                        : kPale;
+    if (width > room) height *= std::max(0.4F, room / width);
+    const float x = static_cast<float>(place.x) + 0.5F * (static_cast<float>(place.width) -
+                                                          draw::text_width(button.label, height));
+    const float y =
+        static_cast<float>(place.y) + 0.5F * (static_cast<float>(place.height) - height);
+    const Color& ink = button.chosen ? kOnChosen : button.enabled ? kInk : kPale;
     draw::draw_text(*image_, x, y, button.label, height, ink);
   }
 
-  Image *image_;
+  Image* image_;
   float scale_;
   int y_ = kMargin;
 };
 
-int lay_out(const study::PanelView &view, Image *image, float scale,
-            std::vector<ButtonPlace> &places) {
+int lay_out(const study::PanelView& view, Image* image, float scale,
+            std::vector<ButtonPlace>& places) {
   Layout layout(image, scale);
   if (!view.heading.empty()) {
     layout.text(view.heading, kHeadingHeight);
     layout.gap();
   }
-  for (const std::string &line : view.lines)
-    layout.text(line, kLineHeight);
+  for (const std::string& line : view.lines) layout.text(line, kLineHeight);
   layout.gap();
-  for (const auto &row : view.rows)
-    layout.row(row, places);
+  for (const auto& row : view.rows) layout.row(row, places);
   return layout.bottom();
 }
 
-} // namespace
+}  // namespace
 
-PanelPicture paint(const study::PanelView &view) {
+PanelPicture paint(const study::PanelView& view) {
   PanelPicture picture;
   picture.image = Image::blank(kPanelWidth_px, kPanelHeight_px);
-  fill(picture.image, {0, true, 0, 0, kPanelWidth_px, kPanelHeight_px}, kEdge,
-       0);
-  fill(picture.image, {0, true, 4, 4, kPanelWidth_px - 8, kPanelHeight_px - 8},
-       kPaper, 24);
+  fill(picture.image, {0, true, 0, 0, kPanelWidth_px, kPanelHeight_px}, kEdge, 0);
+  fill(picture.image, {0, true, 4, 4, kPanelWidth_px - 8, kPanelHeight_px - 8}, kPaper, 24);
   float scale = 1.0F;
-  while (scale > 0.5F && lay_out(view, nullptr, scale, picture.buttons) >
-                             kPanelHeight_px - kMargin / 2) {
+  while (scale > 0.5F &&
+         lay_out(view, nullptr, scale, picture.buttons) > kPanelHeight_px - kMargin / 2) {
     scale -= 0.05F;
   }
   lay_out(view, &picture.image, scale, picture.buttons);
@@ -209,20 +179,18 @@ PanelPicture paint(const study::PanelView &view) {
 std::optional<int> PanelPicture::button_at(double right_m, double up_m) const {
   const double x = right_m / kPixel_m + 0.5 * kPanelWidth_px;
   const double y = 0.5 * kPanelHeight_px - up_m / kPixel_m;
-  for (const ButtonPlace &button : buttons) {
-    if (button.enabled && x >= button.x - kReach &&
-        x < button.x + button.width + kReach && y >= button.y - kReach &&
-        y < button.y + button.height + kReach) {
+  for (const ButtonPlace& button : buttons) {
+    if (button.enabled && x >= button.x - kReach && x < button.x + button.width + kReach &&
+        y >= button.y - kReach && y < button.y + button.height + kReach) {
       return button.id;
     }
   }
   return std::nullopt;
 }
 
-Vec3 middle_of(const ButtonPlace &button) {
+Vec3 middle_of(const ButtonPlace& button) {
   return {kPixel_m * (button.x + 0.5 * button.width - 0.5 * kPanelWidth_px),
-          kPixel_m * (0.5 * kPanelHeight_px - button.y - 0.5 * button.height),
-          0.0};
+          kPixel_m * (0.5 * kPanelHeight_px - button.y - 0.5 * button.height), 0.0};
 }
 
-} // namespace nade::xr
+}  // namespace nade::xr

@@ -13,8 +13,7 @@ namespace nade::xr {
 inline constexpr int kPanelWidth_px = 1024;
 inline constexpr int kPanelHeight_px = 768;
 inline constexpr double kPanelWidth_m = 0.40;
-inline constexpr double kPanelHeight_m =
-    kPanelWidth_m * kPanelHeight_px / kPanelWidth_px;
+inline constexpr double kPanelHeight_m = kPanelWidth_m * kPanelHeight_px / kPanelWidth_px;
 
 /// A button's place in the picture, pixels, top left corner first.
 struct ButtonPlace {
@@ -26,20 +25,17 @@ struct ButtonPlace {
   int height = 0;
 };
 
-/// A panel as a picture. Text that does not fit is set smaller, down to half
-/// its size.
+/// A panel as a picture. Text that does not fit is set smaller, down to half its size.
 struct PanelPicture {
   draw::Image image;
   std::vector<ButtonPlace> buttons;
 
-  /// The enabled button at a point of the panel, metres right and up of its
-  /// middle.
+  /// The enabled button at a point of the panel, metres right and up of its middle.
   [[nodiscard]] std::optional<int> button_at(double right_m, double up_m) const;
 };
-[[nodiscard]] PanelPicture paint(const study::PanelView &view);
+[[nodiscard]] PanelPicture paint(const study::PanelView& view);
 
-/// The middle of a button as a point of the panel, metres right and up of its
-/// middle.
-[[nodiscard]] Vec3 middle_of(const ButtonPlace &button);
+/// The middle of a button as a point of the panel, metres right and up of its middle.
+[[nodiscard]] Vec3 middle_of(const ButtonPlace& button);
 
-} // namespace nade::xr
+}  // namespace nade::xr

@@ -12,23 +12,22 @@ constexpr std::int64_t kGap_ns = 1'000'000'000;
 constexpr std::int64_t kFarewell_ns = 5'000'000'000;
 constexpr double kStep_m = 0.02;
 
-} // namespace
+}  // namespace
 
-StudyGuide::StudyGuide(study::StudyRun &run, double speed)
-    : run_(run), speed_(speed) {
+StudyGuide::StudyGuide(study::StudyRun& run, double speed) : run_(run), speed_(speed) {
   take_view();
 }
 
 std::vector<std::string> StudyGuide::objects() const {
   std::vector<std::string> specs;
-  for (const study::StudyObject &object : run_.session().plan().objects) {
+  for (const study::StudyObject& object : run_.session().plan().objects) {
     specs.push_back(object.spec);
   }
   return specs;
 }
 
 void StudyGuide::take_view() {
-  const study::StudyScene &scene = run_.scene();
+  const study::StudyScene& scene = run_.scene();
   revision_ = run_.view_revision();
   show_.object = scene.spec;
   show_.method = scene.method;
@@ -41,16 +40,14 @@ void StudyGuide::take_view() {
 bool StudyGuide::changed() { return std::exchange(changed_, false); }
 
 std::int64_t StudyGuide::study_time(std::int64_t time_ns) {
-  if (!first_ns_)
-    first_ns_ = time_ns;
-  return static_cast<std::int64_t>(speed_ *
-                                   static_cast<double>(time_ns - *first_ns_));
+  if (!first_ns_) first_ns_ = time_ns;
+  return static_cast<std::int64_t>(speed_ * static_cast<double>(time_ns - *first_ns_));
 }
 
 void StudyGuide::press(int button) { run_.press(button, now_ns_); }
 
-void StudyGuide::seen(const Moment &moment) {
-  const study::MotionFrame &motion = moment.motion;
+void StudyGuide::seen(const Moment& moment) {
+  const study::MotionFrame& motion = moment.motion;
   now_ns_ = study_time(motion.time_ns);
   if (last_ns_ != 0 && motion.time_ns - last_ns_ > kGap_ns &&
       run_.state() != study::StudyState::paused) {
@@ -61,10 +58,8 @@ void StudyGuide::seen(const Moment &moment) {
   study::RunFrame frame;
   frame.now_ns = now_ns_;
   for (std::size_t side = 0; side < 2; ++side) {
-    if (motion.tracked[side])
-      frame.tracked[side] = &*motion.tracked[side];
-    if (motion.corrected[side])
-      frame.corrected[side] = &*motion.corrected[side];
+    if (motion.tracked[side]) frame.tracked[side] = &*motion.tracked[side];
+    if (motion.corrected[side]) frame.corrected[side] = &*motion.corrected[side];
   }
   frame.head = motion.head;
   frame.object = moment.object;
@@ -73,15 +68,13 @@ void StudyGuide::seen(const Moment &moment) {
       run_.scene().method != show_.method) {
     take_view();
   }
-  if (!run_.over())
-    return;
-  if (!over_ns_)
-    over_ns_ = motion.time_ns;
-  wishes_.leave = speed_ * static_cast<double>(motion.time_ns - *over_ns_) >
-                  static_cast<double>(kFarewell_ns);
+  if (!run_.over()) return;
+  if (!over_ns_) over_ns_ = motion.time_ns;
+  wishes_.leave =
+      speed_ * static_cast<double>(motion.time_ns - *over_ns_) > static_cast<double>(kFarewell_ns);
 }
 
-bool StudyGuide::obey(const std::string &word) {
+bool StudyGuide::obey(const std::string& word) {
   constexpr std::string_view kSkip = "skip ";
   if (word == "pause") {
     run_.pause(now_ns_);
@@ -105,4 +98,4 @@ bool StudyGuide::obey(const std::string &word) {
 
 Guide::Wishes StudyGuide::take_wishes() { return std::exchange(wishes_, {}); }
 
-} // namespace nade::xr
+}  // namespace nade::xr

@@ -1,8 +1,7 @@
 #pragma once
 
-// The one place that brings in OpenXR's headers, after epoxy, which brings
-// EGL's and OpenGL's names. What the older of the headers that we build with
-// lack is filled in.
+// The one place that brings in OpenXR's headers, after epoxy, which brings EGL's and OpenGL's
+// names. What the older of the headers that we build with lack is filled in.
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 #define XR_USE_PLATFORM_EGL
@@ -17,8 +16,7 @@ inline constexpr XrReferenceSpaceType XR_REFERENCE_SPACE_TYPE_LOCAL_FLOOR_EXT =
 #endif
 
 #ifndef XR_EXT_hand_tracking_data_source
-#define XR_EXT_HAND_TRACKING_DATA_SOURCE_EXTENSION_NAME                        \
-  "XR_EXT_hand_tracking_data_source"
+#define XR_EXT_HAND_TRACKING_DATA_SOURCE_EXTENSION_NAME "XR_EXT_hand_tracking_data_source"
 inline constexpr XrStructureType XR_TYPE_HAND_TRACKING_DATA_SOURCE_INFO_EXT =
     static_cast<XrStructureType>(1000428000);
 inline constexpr XrStructureType XR_TYPE_HAND_TRACKING_DATA_SOURCE_STATE_EXT =
@@ -29,13 +27,13 @@ enum XrHandTrackingDataSourceEXT : int {
 };
 struct XrHandTrackingDataSourceInfoEXT {
   XrStructureType type;
-  const void *next;
+  const void* next;
   std::uint32_t requestedDataSourceCount;
-  XrHandTrackingDataSourceEXT *requestedDataSources;
+  XrHandTrackingDataSourceEXT* requestedDataSources;
 };
 struct XrHandTrackingDataSourceStateEXT {
   XrStructureType type;
-  void *next;
+  void* next;
   XrBool32 isActive;
   XrHandTrackingDataSourceEXT dataSource;
 };
