@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "json_reader.h"
 #include "nade/io/output_file.h"
 #include "nade/io/recording.h"
 
@@ -135,7 +136,7 @@ class SystemWriter {
                             ? static_cast<double>(overview_.frames - 1) / overview_.length_s
                             : 0.0;
     Json json{{"TaskName", "stroking"}};
-    json.update(motion_.about);
+    json.update(Json::parse(motion_.about_json));
     json["TrackingSystemName"] = fmt::format("{} ({})", system_.description, overview_.source);
     json["SamplingFrequency"] = std::round(rate);
     json["SamplingFrequencyEffective"] = rate;

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "json_reader.h"
 #include "nade/status.h"
 
 namespace nade::study {
@@ -16,7 +15,7 @@ struct BidsMotion {
   /// "sub-P01_task-stroking": before "_tracksys-…"
   std::string stem;
   std::string run;         ///< "_run-01", with what follows before the suffix
-  Json about;              ///< keys that every sidecar has
+  std::string about_json;  ///< keys that every sidecar has, an object
   bool with_head = false;  ///< whether the head is written beside the hands
 };
 

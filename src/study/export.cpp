@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bids_motion.h"
+#include "json_reader.h"
 #include "nade/io/output_file.h"
 #include "nade/study/participant.h"
 
@@ -158,11 +159,13 @@ Status Exporter::add_trial(const Participant& participant, const std::string& la
     instructions += (instructions.empty() ? "" : " ") + text.in(participant.head.plan.language);
   }
   // Validators refuse keys that BIDS does not know; object and method are columns of the scans.
-  motion.about["TaskDescription"] =
+  Json about;
+  about["TaskDescription"] =
       fmt::format("{}Stroking a virtual {} with the bare hand; method {}",
                   simulated_ ? "SIMULATED: " : "", trial.object, method_name(trial.method));
-  motion.about["Instructions"] = instructions;
-  motion.about["SoftwareVersions"] = participant.head.tool;
+  about["Instructions"] = instructions;
+  about["SoftwareVersions"] = participant.head.tool;
+  motion.about_json = about.dump();
   const Result<std::vector<std::string>> written = write_bids_motion(motion);
   if (!written) return written.error();
   for (const std::string& name : *written) {

@@ -87,25 +87,9 @@ void StudySession::build_view() {
       view_.lines = {trial, word(strokes ? kWords.stroke : kWords.soon)};
       break;
     }
-    case StudyState::question: {
-      const Given& given = given_[question_];
-      view_.heading =
-          fmt::format("{} · {}", trial,
-                      filled(kWords.question, language, question_ + 1, plan_.questions.size()));
-      view_.lines = {word(plan_.questions[question_].text),
-                     fmt::format("1: {}   {}: {}", word(plan_.scale.low), plan_.scale.points,
-                                 word(plan_.scale.high))};
-      view_.rows.resize(2);
-      for (int answer = 1; answer <= plan_.scale.points; ++answer) {
-        view_.rows[0].push_back(
-            {kAnswerButton + answer, std::to_string(answer), given.choice == answer});
-      }
-      view_.rows[1] = {button(kBackButton, kWords.back, language),
-                       button(kConfirmButton, kWords.confirm, language)};
-      view_.rows[1][0].enabled = question_ > 0;
-      view_.rows[1][1].enabled = given.choice != 0;
+    case StudyState::question:
+      show_question(trial);
       break;
-    }
     case StudyState::rest:
       view_.heading = word(kWords.rest);
       view_.lines = {shown_seconds_ > 0 ? filled(kWords.resting, language, shown_seconds_)
@@ -130,6 +114,25 @@ void StudySession::build_view() {
       view_.lines = {failure_};
       break;
   }
+}
+
+void StudySession::show_question(const std::string& trial) {
+  const Language language = plan_.language;
+  const Given& given = given_[question_];
+  view_.heading = fmt::format(
+      "{} · {}", trial, filled(kWords.question, language, question_ + 1, plan_.questions.size()));
+  view_.lines = {plan_.questions[question_].text.in(language),
+                 fmt::format("1: {}   {}: {}", plan_.scale.low.in(language), plan_.scale.points,
+                             plan_.scale.high.in(language))};
+  view_.rows.resize(2);
+  for (int answer = 1; answer <= plan_.scale.points; ++answer) {
+    view_.rows[0].push_back(
+        {kAnswerButton + answer, std::to_string(answer), given.choice == answer});
+  }
+  view_.rows[1] = {button(kBackButton, kWords.back, language),
+                   button(kConfirmButton, kWords.confirm, language)};
+  view_.rows[1][0].enabled = question_ > 0;
+  view_.rows[1][1].enabled = given.choice != 0;
 }
 
 }  // namespace nade::study

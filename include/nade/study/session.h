@@ -142,6 +142,7 @@ class StudySession {
   void note(StudyEvent::What what, std::int64_t now_ns);
   void set_scene();
   void build_view();
+  void show_question(const std::string& trial);
   [[nodiscard]] bool practising() const { return trial_ == kPractice; }
   [[nodiscard]] Trial current() const;
   [[nodiscard]] double trial_s() const;
