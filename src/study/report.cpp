@@ -200,8 +200,8 @@ class Report {
 
   void add_row(const Comparison& comparison, bool several) {
     const std::string object =
-        comparison.object.empty() ? "" : " " + cell(comparison.object) + " |";
-    const std::string method = several ? " `" + cell(comparison.method) + "` |" : "";
+        comparison.object.empty() ? "" : fmt::format(" {} |", cell(comparison.object));
+    const std::string method = several ? fmt::format(" `{}` |", cell(comparison.method)) : "";
     const SignedRankTest& test = comparison.dropped;
     const std::string zeros = test.zeros > 0 ? fmt::format(" ({} zero)", test.zeros) : "";
     add("| {} |{}{} {}{} | {} | {} | {} | {} | {} | {} | {} | {} | {} [{}, {}] |\n",
