@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include "nade/io/object_file.h"
 #include "nade/study/store.h"
@@ -90,11 +92,13 @@ TEST_F(StudyStoreTest, RecordsTheMotionOfEachTrial) {
 
 TEST_F(StudyStoreTest, GoesOnAtTheFirstUnfinishedTrial) {
   run_into(3);
-  const auto run = opened(quick_plan(), options());
-  EXPECT_EQ(run->view().heading, "Trial 3 of 6");
-  Stroker person(*run);
-  person.answer = 6;
-  person.go_to(StudyState::thanks);
+  {  // what is recorded is all on disk when the run has ended
+    const auto run = opened(quick_plan(), options());
+    EXPECT_EQ(run->view().heading, "Trial 3 of 6");
+    Stroker person(*run);
+    person.answer = 6;
+    person.go_to(StudyState::thanks);
+  }
   const Result<Participant> kept = read_participant(path("data/P01"));
   ASSERT_TRUE(kept.ok());
   EXPECT_EQ(kept->problems, std::vector<std::string>{});
@@ -216,7 +220,12 @@ TEST_F(StudyStoreTest, WhatCannotBeKeptEndsTheStudyOnThePanel) {
   const auto trial = trials_of(quick_plan(), "P01").front();
   // Somebody else's file stands where the motion is to go.
   write("data/P01/" + recording_stem(trial, 1) + ".tracked.jsonl.gz", "mine");
-  for (int i = 0; i < 10'000 && !run->over(); ++i) person.go_on();
+  person.go_to(StudyState::question);
+  // The file is opened off the frame loop.
+  for (int i = 0; i < 500 && !run->over(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    person.step();
+  }
   EXPECT_EQ(run->state(), StudyState::failed);
   EXPECT_FALSE(run->status().ok());
   ASSERT_EQ(run->view().lines.size(), 1u);
