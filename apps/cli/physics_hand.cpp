@@ -194,8 +194,7 @@ class HandBodies {
       // The tracked hand's own motion, and what it takes to catch up with it.
       const Vec3 lag = a.position + before * (b.position - a.position) - here.position;
       const Vec3 turned = turn_between(here.rotation, a.rotation.slerp(before, b.rotation));
-      body_->setBaseVel(
-          to_bullet(tracked_speed + shortened(kCatchUp_hz * lag, kCatchUpMax_mps)));
+      body_->setBaseVel(to_bullet(tracked_speed + shortened(kCatchUp_hz * lag, kCatchUpMax_mps)));
       body_->setBaseOmega(
           to_bullet(tracked_turn + shortened(kCatchUp_hz * turned, kCatchUpMaxTurn_radps)));
       for (std::size_t d = 0; d < kDigitCount; ++d) {
