@@ -2,7 +2,7 @@
 # neither installed nor fetched again.
 .NOTPARALLEL:
 .DEFAULT_GOAL := help
-.PHONY: help demo test build bench asan tidy format format-check install clean setup
+.PHONY: help demo test build bench asan test-headset tidy format format-check install clean setup
 
 PREFIX ?= /usr/local
 sources = $(shell find apps assets bench examples include src tests tools -name '*.h' -o -name '*.cpp')
@@ -26,6 +26,9 @@ bench: setup ## Medians and 99th percentiles on this machine
 asan: setup ## The tests under the address and undefined-behaviour sanitizers
 	@scripts/build asan
 	@ctest --preset asan -j "$$(nproc)"
+
+test-headset: setup ## All of it in a Debian 13 system, with g++ 14, and `nade xr` on the OpenXR runtime there (root)
+	@scripts/test_xr
 
 tidy: setup ## clang-tidy over our sources
 	@scripts/build release

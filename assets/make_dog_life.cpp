@@ -90,7 +90,7 @@ Vec3 face_normal(const std::vector<Vec3>& points, const std::array<std::uint32_t
 }  // namespace
 
 const std::vector<Bone>& bones() {
-  static const std::vector<Bone> all = [] {
+  static const std::vector<Bone> kAll = [] {
     std::vector<Bone> list{{"hips", {0.10, 0.36, 0.0}, std::nullopt},
                            {"chest", {-0.03, 0.352, 0.0}, kHips},
                            {"neck", {-0.150, 0.395, 0.0}, kHips},
@@ -102,7 +102,7 @@ const std::vector<Bone>& bones() {
     }
     return list;
   }();
-  return all;
+  return kAll;
 }
 
 Carriers carriers_of(const Vec3& point) {

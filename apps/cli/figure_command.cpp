@@ -54,6 +54,7 @@ Status play(const Frames& next, std::int64_t time_ns, const std::array<double, 2
             const std::vector<CorrectorOptions>& methods, FigureRow& row) {
   const Object object = row.placed.object();
   std::vector<std::array<HandCorrector, 2>> correctors;
+  correctors.reserve(methods.size());
   for (const CorrectorOptions& options : methods) {
     correctors.push_back({HandCorrector(options), HandCorrector(options)});
   }

@@ -151,7 +151,8 @@ class Sheet {
   Status draw_row(int index, const FigureRow& row) {
     const Status set = set_object(studio_, row.placed);
     if (!set) return set;
-    const float middle = static_cast<float>(layout_.top(index) + layout_.panel_height / 2);
+    const float middle =
+        static_cast<float>(layout_.top(index)) + 0.5F * static_cast<float>(layout_.panel_height);
     canvas_.text({static_cast<float>(kMargin), middle - 36.0F}, row.title, 62.0F, kInk);
     paste(index, 0, take(studio_.stage.arrange_object(), object_camera(studio_.stage)));
     const draw::Camera camera = hand_camera(row);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace nade::xr {
 namespace {
@@ -15,7 +16,7 @@ FrameCosts::Sum sum_of(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const std::size_t last = values.size() - 1;
   const auto at = [&](double share) {
-    return 1e3 * values[static_cast<std::size_t>(share * static_cast<double>(last) + 0.5)];
+    return 1e3 * values[static_cast<std::size_t>(std::lround(share * static_cast<double>(last)))];
   };
   return {at(0.5), at(0.99)};
 }

@@ -143,21 +143,21 @@ Result<Headset> Loop::find_again() {
   }
 }
 
-Status Loop::go(RoomSetup setup) {
+Status Loop::go(RoomSetup setup_once) {
   const Interruptible interruptible;
-  bool first = true;
+  std::optional<RoomSetup> setup = std::move(setup_once);
   while (true) {
-    Result<Headset> headset = first ? find_headset() : find_again();
+    Result<Headset> headset = setup ? find_headset() : find_again();
     if (!headset) {
       const Status finished = finish_recording();
-      return first || finished ? Status(headset.error()) : finished;
+      return setup || finished ? Status(headset.error()) : finished;
     }
     headset_name_ = headset->name();
     say(headset_name_);
-    if (first) {
-      if (Status begun = begin(std::move(setup), *headset); !begun) return begun;
+    if (setup) {
+      if (Status begun = begin(*std::move(setup), *headset); !begun) return begun;
+      setup.reset();
     }
-    first = false;
     Result<std::unique_ptr<HeadsetSession>> session = HeadsetSession::create(*headset, *binding_);
     if (!session) return session.error();
     room_->restart();

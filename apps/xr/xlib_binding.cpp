@@ -7,7 +7,7 @@
 #undef Success
 // After epoxy, which brings OpenGL's names.
 #include <GLFW/glfw3.h>
-#define XR_USE_PLATFORM_XLIB
+#define XR_USE_PLATFORM_XLIB  // NOLINT(readability-identifier-naming): OpenXR's
 #include "graphics_binding.h"
 #include "nade/draw/gl_context.h"
 
@@ -16,7 +16,7 @@ namespace {
 
 class XlibBinding final : public GraphicsBinding {
  public:
-  explicit XlibBinding(GLFWwindow* window) : window_(window) {}
+  XlibBinding() = default;
   /// The window stays to the program's end: the operator's may still be using GLFW.
   ~XlibBinding() override { glfwMakeContextCurrent(nullptr); }
 
@@ -51,7 +51,6 @@ class XlibBinding final : public GraphicsBinding {
             "the X server's OpenGL (GLX) does not say how its context is made"};
   }
 
-  GLFWwindow* window_;
   XrGraphicsBindingOpenGLXlibKHR link_{};
 };
 
@@ -68,7 +67,7 @@ Result<std::unique_ptr<GraphicsBinding>> bind_xlib() {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   GLFWwindow* const window = glfwCreateWindow(64, 64, "nade xr", nullptr, nullptr);
-  auto binding = std::make_unique<XlibBinding>(window);
+  auto binding = std::make_unique<XlibBinding>();
   if (window == nullptr) {
     return Error{ErrorCode::not_found,
                  "drawing needs OpenGL 4.5, and the X server offers no such context"};

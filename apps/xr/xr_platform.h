@@ -4,6 +4,8 @@
 // names. What the older of the headers that we build with lack is filled in.
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
+// Names are OpenXR's.
+// NOLINTBEGIN(readability-identifier-naming)
 #define XR_USE_PLATFORM_EGL
 #define XR_USE_GRAPHICS_API_OPENGL
 #include <openxr/openxr.h>
@@ -38,3 +40,4 @@ struct XrHandTrackingDataSourceStateEXT {
   XrHandTrackingDataSourceEXT dataSource;
 };
 #endif
+// NOLINTEND(readability-identifier-naming)
