@@ -105,7 +105,7 @@ void add_ring(float inset, float y, const Vec2f& slope, DrawnMesh& mesh) {
   const std::vector<Vec2f> outline = rounded_rectangle(inset);
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const Vec2f& before = outline[(i + outline.size() - 1) % outline.size()];
-    const Vec2f after = outline[(i + 1) % outline.size()];
+    const Vec2f& after = outline[(i + 1) % outline.size()];
     const Vec2f along = (after - before).normalized();
     const Vec2f out(along.y(), -along.x());
     mesh.positions.emplace_back(outline[i].x(), y, outline[i].y());
