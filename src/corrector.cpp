@@ -11,6 +11,8 @@
 namespace nade {
 namespace {
 
+constexpr std::array<std::string_view, 3> kMethodNames{"none", "paper", "nade"};  // as Method
+
 /// A correction that changes by more than this many times the tracked hand's own motion, and
 /// the margin, has jumped. The motion counts up to a limit: beyond it the hand itself jumped.
 constexpr double kJumpRatio = 4.0;
@@ -61,6 +63,14 @@ bool touches(const Contacts& contacts) {
 }
 
 }  // namespace
+
+std::string_view name_of(Method method) { return kMethodNames[static_cast<std::size_t>(method)]; }
+
+std::optional<Method> method_from_name(std::string_view name) {
+  const auto* const found = std::find(kMethodNames.begin(), kMethodNames.end(), name);
+  if (found == kMethodNames.end()) return std::nullopt;
+  return static_cast<Method>(found - kMethodNames.begin());
+}
 
 CorrectorOptions paper_literal() {
   CorrectorOptions options;

@@ -11,12 +11,14 @@
 #include "nade/io/mesh_file.h"
 #include "nade/mesh.h"
 #include "support/allocation_counter.h"
+#include "support/hand_checks.h"
 #include "support/meshes.h"
 #include "support/sample_hand.h"
 
 namespace nade {
 namespace {
 
+using test::all_finite;
 using test::rad;
 
 constexpr std::int64_t kFrame_ns = 11'111'111;
@@ -67,13 +69,6 @@ double largest_difference(const HandPose& a, const HandPose& b) {
     largest = std::max(largest, (a.joints[i].position - b.joints[i].position).norm());
   }
   return largest;
-}
-
-bool all_finite(const HandPose& hand) {
-  for (const Pose& joint : hand.joints) {
-    if (!joint.position.allFinite() || !joint.rotation.coeffs().allFinite()) return false;
-  }
-  return true;
 }
 
 double signed_distance(const Object& object, const Vec3& point) {

@@ -9,22 +9,13 @@
 #include "nade/eval/noise.h"
 #include "nade/eval/press.h"
 #include "nade/eval/synth.h"
+#include "support/viewer_assets.h"
 
 namespace nade::viewer {
 namespace {
 
 constexpr double kStep_s = 1.0 / 60.0;
 constexpr double kDegree = std::numbers::pi / 180.0;
-
-const bool kAssetsNamed = [] {
-  return ::setenv("NADE_ASSETS", NADE_TEST_HANDS_DIR "/..", 1) == 0;
-}();
-
-HandPose relaxed_hand() {
-  Result<HandPose> hand = load_relaxed_hand(Handedness::right);
-  EXPECT_TRUE(hand.ok());
-  return std::move(hand).value();
-}
 
 /// From above, with -Z up in the picture.
 Aim from_above(double x, double z) {
@@ -39,7 +30,7 @@ Vec3 palm_skin_of(const HandPose& hand) { return *palm_skin(hand); }
 
 class MouseHandTest : public testing::Test {
  protected:
-  MouseHandTest() : hand_(relaxed_hand()) { hand_.place(plane_object_, {}); }
+  MouseHandTest() : hand_(test::relaxed_hand()) { hand_.place(plane_object_, {}); }
 
   HandPose rest(const Object& object, const Aim& aim, double seconds) {
     HandPose pose;

@@ -9,6 +9,7 @@
 #include "nade/corrector.h"
 #include "nade/io/object_file.h"
 #include "support/allocation_counter.h"
+#include "support/hand_checks.h"
 #include "support/sample_hand.h"
 
 namespace nade {
@@ -18,47 +19,12 @@ constexpr std::int64_t kFrame_ns = 11'111'111;
 constexpr double kFrame_s = 1e-9 * kFrame_ns;
 constexpr double kNear_m = 0.05;
 
-CorrectorOptions settling() {
-  CorrectorOptions options;
-  options.method = Method::nade;
-  return options;
-}
-
 /// A hand that lies on a place of an object, the palm's skin so deep.
 HandPose laid_hand(const Pose& place, double depth_m) {
-  HandPose hand = test::sample_hand(Handedness::right, test::relaxed_angles());
-  const double scale = kGenericHandLength / hand_length(hand);
-  for (Pose& joint : hand.joints) joint.position *= scale;
   const double skin_m = generic_skin_depths()[Part::palm];
-  return test::placed_hand(
-      hand, place.position + (skin_m - depth_m) * (place.rotation * Vec3::UnitY()), place.rotation);
-}
-
-Vec3 position_of(const FleshPoint& point, const HandPose& hand, double scale) {
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t k = 0; k < point.joints.size(); ++k) {
-    sum += point.weights[k] * hand.joints[point.joints[k]].apply(scale * point.local[k]);
-  }
-  return sum;
-}
-
-/// Signed distance of the deepest skin; `kNear_m` where none is near.
-double lowest_skin(const HandPose& hand, const Object& object) {
-  const HandFlesh& flesh = generic_flesh(hand.side);
-  const double scale = hand_length(hand) / flesh.hand_length_m;
-  double lowest = kNear_m;
-  SurfaceHint hint;
-  for (const FleshPoint& point : flesh.skin) {
-    const auto nearest = object.closest_point(position_of(point, hand, scale), kNear_m, hint);
-    if (nearest) lowest = std::min(lowest, nearest->signed_distance);
-  }
-  return lowest;
-}
-
-bool all_finite(const HandPose& hand) {
-  return std::all_of(hand.joints.begin(), hand.joints.end(), [](const Pose& joint) {
-    return joint.position.allFinite() && joint.rotation.coeffs().allFinite();
-  });
+  return test::placed_hand(test::generic_size_hand(),
+                           place.position + (skin_m - depth_m) * (place.rotation * Vec3::UnitY()),
+                           place.rotation);
 }
 
 struct Span {
@@ -84,7 +50,7 @@ struct Rest {
 template <class Move>
 Rest rest_on(const Pose& place, double depth_m, double seconds, const Move& move) {
   constexpr double kComing_s = 1.0;
-  HandCorrector corrector(settling());
+  HandCorrector corrector(test::settling());
   const Vec3 up = place.rotation * Vec3::UnitY();
   Rest rest;
   std::optional<HandPose> before;
@@ -94,9 +60,9 @@ Rest rest_on(const Pose& place, double depth_m, double seconds, const Move& move
     const HandPose tracked = laid_hand(place, depth_m - (1.0 - share) * (0.08 + depth_m));
     const Object object = move(std::max(0.0, time_s - kComing_s));
     const HandPose drawn = corrector.update(tracked, object, i * kFrame_ns).pose;
-    EXPECT_TRUE(all_finite(drawn)) << "frame " << i;
+    EXPECT_TRUE(test::all_finite(drawn)) << "frame " << i;
     if (time_s > kComing_s) {
-      const double lowest_m = lowest_skin(drawn, object);
+      const double lowest_m = test::lowest_skin(drawn, object, kNear_m);
       rest.deepest_m = std::max(rest.deepest_m, -lowest_m);
       rest.farthest_m = std::max(rest.farthest_m, lowest_m);
       rest.fastest_m = std::max(rest.fastest_m, largest_motion(*before, drawn));
@@ -127,22 +93,20 @@ class LivingDog : public testing::Test {
   std::optional<LoadedObject> dog_;
 };
 
-TEST_F(LivingDog, AHandAtRestOnItsFlankRidesOnItsBreath) {
-  const Rest rest = rest_at(place("flank"), 0.01);
-  EXPECT_GT(rest.surface_height_m.length(), 0.004);
+void expect_ride(const Rest& rest, double breath_min_m) {
+  EXPECT_GT(rest.surface_height_m.length(), breath_min_m);
   EXPECT_NEAR(rest.drawn_height_m.length(), rest.surface_height_m.length(), 0.002);
   EXPECT_LT(rest.deepest_m, 0.002);
   EXPECT_LT(rest.farthest_m, 0.002);
   EXPECT_LT(rest.fastest_m, 0.0015);
 }
 
+TEST_F(LivingDog, AHandAtRestOnItsFlankRidesOnItsBreath) {
+  expect_ride(rest_at(place("flank"), 0.01), 0.004);
+}
+
 TEST_F(LivingDog, AHandAtRestOnItsBackRidesOnItsBreath) {
-  const Rest rest = rest_at(place("back"), 0.01);
-  EXPECT_GT(rest.surface_height_m.length(), 0.002);
-  EXPECT_NEAR(rest.drawn_height_m.length(), rest.surface_height_m.length(), 0.002);
-  EXPECT_LT(rest.deepest_m, 0.002);
-  EXPECT_LT(rest.farthest_m, 0.002);
-  EXPECT_LT(rest.fastest_m, 0.0015);
+  expect_ride(rest_at(place("back"), 0.01), 0.002);
 }
 
 TEST_F(LivingDog, ItsHeadTurnsUnderThePalm) {
@@ -164,7 +128,7 @@ TEST_F(LivingDog, ItsTailStrikesAHandWithoutGoingThrough) {
 }
 
 TEST_F(LivingDog, AFrameWithItsMotionAllocatesNothing) {
-  HandCorrector corrector(settling());
+  HandCorrector corrector(test::settling());
   const HandPose tracked = laid_hand(place("flank"), 0.01);
   dog_->move_to(0.0);
   for (int i = 0; i < 60; ++i) {

@@ -18,8 +18,10 @@ namespace nade {
 namespace {
 
 using test::generic_size_hand;
+using test::lowest_skin;
 using test::rad;
 using test::same_bits;
+using test::settling;
 
 constexpr std::int64_t kFrame_ns = 11'111'111;
 
@@ -30,12 +32,6 @@ Object plane() { return Object(kPlane); }
 /// Its top at y = 0.
 Object ball() { return Object(kBall, {{{0.0, -0.15, 0.0}, Quat::Identity()}, 1.0}); }
 
-CorrectorOptions settling() {
-  CorrectorOptions options;
-  options.method = Method::nade;
-  return options;
-}
-
 /// The palm's skin `depth_m` below y = 0, tilted about the hand's lateral axis.
 HandPose pressed_hand(double depth_m, double tilt_rad = 0.0, const Vec3& along = Vec3::Zero(),
                       const HandPose& hand = generic_size_hand()) {
@@ -43,28 +39,6 @@ HandPose pressed_hand(double depth_m, double tilt_rad = 0.0, const Vec3& along =
   const double skin_m = generic_skin_depths()[Part::palm];
   return test::placed_hand(hand, tilt * Vec3(0.0, skin_m, 0.0) - Vec3(0.0, depth_m, 0.0) + along,
                            tilt);
-}
-
-Vec3 position_of(const FleshPoint& point, const HandPose& hand, double scale) {
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t k = 0; k < point.joints.size(); ++k) {
-    sum += point.weights[k] * hand.joints[point.joints[k]].apply(scale * point.local[k]);
-  }
-  return sum;
-}
-
-/// Signed distance of the deepest skin.
-double lowest_skin(const HandPose& hand, const Object& object) {
-  const HandFlesh& flesh = generic_flesh(hand.side);
-  const double scale = hand_length(hand) / flesh.hand_length_m;
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const FleshPoint& point : flesh.skin) {
-    SurfaceHint hint;
-    const auto nearest = object.closest_point(position_of(point, hand, scale),
-                                              std::numeric_limits<double>::infinity(), hint);
-    lowest = std::min(lowest, nearest->signed_distance);
-  }
-  return lowest;
 }
 
 /// Flexion of PIP and DIP, the mean of the four fingers.

@@ -14,6 +14,7 @@
 #include "nade/draw/gl_context.h"
 #include "nade/eval/synth.h"
 #include "nade/io/hand_file.h"
+#include "support/scratch_folder.h"
 #include "support/stored_picture.h"
 
 namespace nade::draw {
@@ -427,9 +428,6 @@ class StageFiles : public StageTest {
  protected:
   void SetUp() override {
     StageTest::SetUp();
-    std::string pattern = testing::TempDir() + "nade_stage_XXXXXX";
-    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
     Image texture = Image::blank(4, 4);
     for (std::size_t i = 0; i < 16; ++i) {
       // The left half red, the right half blue.
@@ -441,14 +439,7 @@ class StageFiles : public StageTest {
     }
     ASSERT_TRUE(save_png(path("board.png"), texture).ok());
   }
-  void TearDown() override {
-    StageTest::TearDown();
-    fs::remove_all(folder_);
-  }
-
-  [[nodiscard]] std::string path(const std::string& name) const {
-    return (folder_ / name).string();
-  }
+  [[nodiscard]] std::string path(const std::string& name) const { return scratch_.path(name); }
 
   void write_obj(const std::string& name, const std::string& material) {
     std::ofstream(path(name + ".mtl")) << "newmtl board\n" << material;
@@ -507,7 +498,7 @@ class StageFiles : public StageTest {
     EXPECT_LT(red_share(image, kWidth / 2 + 40, kHeight / 2), 0.4);
   }
 
-  fs::path folder_;
+  test::ScratchFolder scratch_;
 };
 
 std::string base64(const std::string& bytes) {

@@ -14,6 +14,7 @@
 #include "nade/study/figure.h"
 #include "nade/study/participant.h"
 #include "nade/study/report.h"
+#include "support/scratch_folder.h"
 
 namespace nade::study {
 namespace {
@@ -42,18 +43,8 @@ bool has(const std::string& text, const std::string& part) {
 }
 
 /// Each test in an empty folder of its own.
-class StudyAnalysis : public testing::Test {
+class StudyAnalysis : public test::FolderTest {
  protected:
-  void SetUp() override {
-    std::string pattern = testing::TempDir() + "nade_analysis_XXXXXX";
-    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  [[nodiscard]] std::string path(const std::string& name) const {
-    return (folder_ / name).string();
-  }
   std::string write(const std::string& name, const std::string& text) const {
     std::filesystem::create_directories(std::filesystem::path(path(name)).parent_path());
     std::ofstream(path(name), std::ios::binary) << text;
@@ -66,9 +57,6 @@ class StudyAnalysis : public testing::Test {
     EXPECT_EQ(data.error().message.find('\n'), std::string::npos);
     return data.error().message;
   }
-
- private:
-  std::filesystem::path folder_;
 };
 
 StudyData stored_study() {
@@ -303,10 +291,10 @@ class FolderWriter {
   [[nodiscard]] const std::vector<Trial>& trials() const { return head_.trials; }
   void answer(const Trial& trial, const std::string& question, int answer, std::size_t attempt = 1,
               bool changed = false) {
-    answers_ += answers_line(
-        {head_.participant, trial.number, trial.number, trial.object,
-         std::string(method_name(trial.method)), question, answer, 1.5, attempt, changed},
-        head_.origin);
+    answers_ +=
+        answers_line({head_.participant, trial.number, trial.number, trial.object,
+                      std::string(name_of(trial.method)), question, answer, 1.5, attempt, changed},
+                     head_.origin);
   }
   void log(const std::string& line) { log_ += line + "\n"; }
   void write(const std::string& study) const {

@@ -66,9 +66,9 @@ TEST_F(StudyCheckTest, AWholeStudyHasNoProblems) {
 
 TEST_F(StudyCheckTest, AnAnswerOutOfRangeIsNamed) {
   const Trial trial = trials_of(quick_plan(), "P2").front();
-  replace_line("data/P2/answers.csv", 2,
-               "P2,1,1," + trial.object + "," + std::string(method_name(trial.method)) +
-                   ",Q1,8,0.5,1,given");
+  replace_line(
+      "data/P2/answers.csv", 2,
+      "P2,1,1," + trial.object + "," + std::string(name_of(trial.method)) + ",Q1,8,0.5,1,given");
   EXPECT_TRUE(has(problem(), "P2/answers.csv: line 2: answer: expected 1 to 7, found '8'"));
 }
 

@@ -14,15 +14,12 @@
 #include "nade/io/hand_file.h"
 #include "support/recording_files.h"
 #include "support/study_files.h"
+#include "support/viewer_assets.h"
 
 namespace nade::viewer {
 namespace {
 
 using study::StudyState;
-
-const bool kAssetsNamed = [] {
-  return ::setenv("NADE_ASSETS", NADE_TEST_HANDS_DIR "/..", 1) == 0;
-}();
 
 /// The study in the viewer, without a display and with nothing drawn but the panel.
 class StudyDeskTest : public test::StudyFiles {
@@ -137,7 +134,7 @@ TEST_F(StudyDeskTest, RunsByMouseFromStartToThanks) {
     const bool moved = (tracked.frames[40].hands[1]->pose[Joint::palm].position -
                         corrected.frames[40].hands[1]->pose[Joint::palm].position)
                            .norm() > 0.005;
-    EXPECT_EQ(moved, trial.method != Method::none) << study::method_name(trial.method);
+    EXPECT_EQ(moved, trial.method != Method::none) << name_of(trial.method);
   }
 }
 

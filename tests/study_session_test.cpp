@@ -90,7 +90,7 @@ TEST(StudySession, RunsFromInstructionsToThanks) {
     const StudyScene& scene = sitting.session.scene();
     EXPECT_TRUE(scene.recording);
     EXPECT_EQ(scene.trial, static_cast<std::size_t>(trial) + 1);
-    conditions.insert(scene.object + std::string(method_name(scene.method)));
+    conditions.insert(scene.object + std::string(name_of(scene.method)));
     sitting.wait(4.9);
     ASSERT_EQ(sitting.session.state(), StudyState::stroking);
     sitting.wait(0.1);

@@ -11,6 +11,7 @@
 #include "nade/eval/synth.h"
 #include "nade/io/hand_file.h"
 #include "support/cli_run.h"
+#include "support/viewer_assets.h"
 
 // The viewer's program without a display, driven by scripts as a person would, and the same
 // program in a window on a virtual X server.
@@ -20,10 +21,6 @@ namespace {
 
 constexpr int kWidth = 1280;
 constexpr int kHeight = 720;
-
-const bool kAssetsNamed = [] {
-  return ::setenv("NADE_ASSETS", NADE_TEST_HANDS_DIR "/..", 1) == 0;
-}();
 
 ViewerSetup setup_of(const std::string& object, Method method = Method::nade) {
   ViewerSetup setup;
@@ -281,8 +278,6 @@ class ViewerClipTest : public ViewerPictureTest {
  protected:
   void SetUp() override {
     ViewerPictureTest::SetUp();
-    folder_ = testing::TempDir() + "nade_viewer_clip_XXXXXX";
-    ASSERT_NE(::mkdtemp(folder_.data()), nullptr);
     const Result<LoadedObject> object = load_object("plane");
     SynthOptions options;
     options.duration_s = 1.0;
@@ -294,10 +289,9 @@ class ViewerClipTest : public ViewerPictureTest {
     }
     ASSERT_TRUE(writer->finish().ok());
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  [[nodiscard]] std::string recording() const { return folder_ + "/stroke.jsonl"; }
+  [[nodiscard]] std::string recording() const { return scratch_.path("stroke.jsonl"); }
 
-  std::string folder_;
+  test::ScratchFolder scratch_;
 };
 
 TEST_F(ViewerClipTest, PlaysStopsStepsAndScrubs) {
@@ -327,9 +321,9 @@ TEST_F(ViewerClipTest, PlaysStopsStepsAndScrubs) {
 }
 
 TEST_F(ViewerClipTest, DroppedFilesAreOpenedOrSayWhyNot) {
-  std::ofstream(folder_ + "/bad.jsonl") << "nonsense\n";
+  std::ofstream(scratch_.path("bad.jsonl")) << "nonsense\n";
   Driven driven(setup_of("plane"));
-  driven.play("0 drop " + folder_ + "/bad.jsonl", 3);
+  driven.play("0 drop " + scratch_.path("bad.jsonl"), 3);
   ASSERT_EQ(driven.viewer().desk().notices.size(), 1U);
   EXPECT_NE(driven.viewer().desk().notices[0].text.find("bad.jsonl"), std::string::npos);
   EXPECT_NE(driven.viewer().ui().find("notices:close"), nullptr);

@@ -9,40 +9,23 @@
 #include "nade/io/hand_file.h"
 #include "script.h"
 #include "session.h"
+#include "support/scratch_folder.h"
+#include "support/viewer_assets.h"
 
 namespace nade::viewer {
 namespace {
 
 constexpr double kStep_s = 1.0 / 60.0;
 
-const bool kAssetsNamed = [] {
-  return ::setenv("NADE_ASSETS", NADE_TEST_HANDS_DIR "/..", 1) == 0;
-}();
-
-HandPose relaxed_hand() {
-  Result<HandPose> hand = load_relaxed_hand(Handedness::right);
-  EXPECT_TRUE(hand.ok());
-  return std::move(hand).value();
-}
-
 /// Recordings in a folder of its own.
-class RecordedTest : public testing::Test {
+class RecordedTest : public test::FolderTest {
  protected:
-  void SetUp() override {
-    std::string pattern = testing::TempDir() + "nade_viewer_XXXXXX";
-    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-
   /// A stroke of the object, which the header names; its frames are returned, too.
   std::vector<RecordedFrame> make_stroke(const std::string& name, const std::string& spec) const {
     const Result<LoadedObject> object = load_object(spec);
     SynthOptions options;
     options.duration_s = 1.0;
-    Result<StrokeSynth> synth = StrokeSynth::create(*object, {}, relaxed_hand(), options);
+    Result<StrokeSynth> synth = StrokeSynth::create(*object, {}, test::relaxed_hand(), options);
     Result<RecordingWriter> writer = RecordingWriter::create(path(name), synth->header());
     std::vector<RecordedFrame> frames;
     while (std::optional<RecordedFrame> frame = synth->next()) {
@@ -60,7 +43,7 @@ class RecordedTest : public testing::Test {
           std::string(NADE_TEST_HANDS_DIR "/") + std::string(name_of(side)) + ".glb";
       setup.meshes[index_of(side)] = *load_hand_mesh(file, side);
     }
-    setup.relaxed = relaxed_hand();
+    setup.relaxed = test::relaxed_hand();
     setup.timing = Timing::none;
     return setup;
   }
@@ -70,8 +53,6 @@ class RecordedTest : public testing::Test {
     session.clip()->wait();
     session.advance(1e-6, {});
   }
-
-  std::filesystem::path folder_;
 };
 
 TEST_F(RecordedTest, EveryFrameOfAClipIsTheRecordings) {

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "nade/io/csv.h"
+
 namespace nade::cli {
 namespace {
 
@@ -34,16 +36,6 @@ std::string title_of(const BenchFigure& figure) {
   std::string title = figure.key;
   if (has_target(figure.target)) title += fmt::format(" ({})", shown(figure.target));
   return title;
-}
-
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char character : text) {
-    if (character == '"') quoted += '"';
-    quoted += character;
-  }
-  return quoted + '"';
 }
 
 }  // namespace

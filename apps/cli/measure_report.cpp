@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "nade/io/csv.h"
+
 namespace nade::cli {
 namespace {
 
@@ -68,16 +70,6 @@ Json metrics_json(const Metrics& metrics) {
     json[info.key] = value ? Json(*value) : Json(nullptr);
   }
   return json;
-}
-
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char character : text) {
-    if (character == '"') quoted += '"';
-    quoted += character;
-  }
-  return quoted + '"';
 }
 
 }  // namespace

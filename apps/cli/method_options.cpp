@@ -140,21 +140,11 @@ CorrectorOptions options_of(const MethodOptions& options) {
   return corrector;
 }
 
-std::optional<Method> method_from_name(std::string_view name) {
-  for (const Choice<Method>& choice : methods()) {
-    if (name == choice.name) return choice.value;
-  }
-  return std::nullopt;
-}
-
 std::string method_names() { return names_of(methods()); }
 
 std::string method_name(const MethodOptions& options) {
   if (options.literal) return "paper_literal";
-  for (const Choice<Method>& choice : methods()) {
-    if (options.corrector.method == choice.value) return choice.name;
-  }
-  return "";
+  return std::string(name_of(options.corrector.method));
 }
 
 }  // namespace nade::cli

@@ -21,8 +21,7 @@ void add_method_options(CLI::App& command, MethodOptions& options);
 /// What to make correctors with.
 [[nodiscard]] CorrectorOptions options_of(const MethodOptions& options);
 
-/// A method by its name on the command line, and all the names, parted by |.
-[[nodiscard]] std::optional<Method> method_from_name(std::string_view name);
+/// All methods' names, parted by |.
 [[nodiscard]] std::string method_names();
 
 /// A method's name, or "paper_literal".

@@ -31,7 +31,7 @@ struct PlanArguments {
 };
 
 Status run_plan(const PlanArguments& arguments) {
-  study::Plan plan = study::default_plan(*study::method_from_name(arguments.method));
+  study::Plan plan = study::default_plan(*method_from_name(arguments.method));
   if (arguments.language == "ja") plan.language = study::Language::japanese;
   if (arguments.order == "latin") plan.order = study::OrderKind::latin;
   if (arguments.seed) plan.seed = *arguments.seed;

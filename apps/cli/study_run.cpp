@@ -7,13 +7,10 @@
 
 #include "console.h"
 #ifdef NADE_CLI_VIEWER
-#include <fstream>
-#include <iterator>
-
 #include "method_options.h"
 #include "nade/eval/synth.h"
 #include "picture_options.h"
-#include "window.h"
+#include "window_options.h"
 #endif
 
 namespace nade::cli {
@@ -24,38 +21,16 @@ namespace {
 /// Of a study in a window.
 struct DesktopArguments {
   HandFiles hands;
-  PictureSize size;
-  bool headless = false;
-  std::optional<std::size_t> frames;
-  std::optional<std::string> screenshot;
-  std::optional<std::string> script;
+  WindowOptions window;
 };
 
 /// Without a window a study ends by itself; this is for one that nobody answers.
-constexpr std::size_t kFramesMax = 10'000'000;
-
-Result<viewer::Run> viewer_run(const DesktopArguments& arguments) {
-  viewer::Run run;
-  run.width = arguments.size.width;
-  run.height = arguments.size.height;
-  run.frames = arguments.frames;
-  if (arguments.headless && !run.frames) run.frames = kFramesMax;
-  run.screenshot = arguments.screenshot;
-  if (!arguments.script) return run;
-  std::ifstream file(*arguments.script, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file) {
-    return Error{ErrorCode::not_found, fmt::format("{}: cannot be read", *arguments.script)};
-  }
-  Result<std::vector<viewer::ScriptedStep>> script = viewer::parse_script(text, *arguments.script);
-  if (!script) return script.error();
-  run.script = std::move(script).value();
-  return run;
-}
+constexpr std::size_t kFramesMax = kWindowFramesMax;
 
 Status run_on_desktop(const StudyRunArguments& study, const DesktopArguments& arguments) {
-  const Result<viewer::Run> run = viewer_run(arguments);
+  Result<viewer::Run> run = run_of(arguments.window);
   if (!run) return run.error();
+  if (arguments.window.headless && !run->frames) run->frames = kFramesMax;
   Result<draw::HandMeshes> hands = load_hands(arguments.hands);
   if (!hands) return hands.error();
   const Result<HandPose> relaxed = load_relaxed_hand(Handedness::right);
@@ -72,26 +47,14 @@ Status run_on_desktop(const StudyRunArguments& study, const DesktopArguments& ar
   setup.session.meshes = std::move(hands).value();
   setup.session.relaxed = *relaxed;
   const auto desk = setup.study;
-  const Status shown = arguments.headless ? viewer::run_headless(std::move(setup), *run)
-                                          : viewer::run_window(std::move(setup), *run);
+  const Status shown = show_in(arguments.window, std::move(setup), *run);
   const Status kept = close_study(desk->run());
   return shown ? kept : shown;
 }
 
 void add_desktop_options(CLI::App& command, DesktopArguments& arguments) {
   add_hand_options(command, arguments.hands);
-  add_size_option(command, arguments.size);
-  command.add_flag("--headless", arguments.headless,
-                   "on the desktop without a display, for tests: with --script");
-  command.add_option("--frames", arguments.frames, "ends after so many frames")
-      ->type_name("N")
-      ->check(CLI::Range(std::size_t{1}, kFramesMax));
-  command.add_option("--screenshot", arguments.screenshot, "writes the last frame as a PNG file")
-      ->type_name("FILE");
-  command
-      .add_option("--script", arguments.script,
-                  "does by itself what the lines of a file say (docs/viewer.md)")
-      ->type_name("FILE");
+  add_window_options(command, arguments.window);
 }
 
 #else

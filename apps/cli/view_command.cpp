@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,7 +10,7 @@
 #include "nade/eval/synth.h"
 #include "object_options.h"
 #include "picture_options.h"
-#include "window.h"
+#include "window_options.h"
 
 namespace nade::cli {
 namespace {
@@ -23,13 +21,9 @@ struct ViewArguments {
   MethodOptions method;
   HandFiles hands;
   std::optional<double> press_m;
-  PictureSize size;
   draw::Overlays overlays;
   std::optional<draw::Shown> shown;
-  bool headless = false;
-  std::optional<std::size_t> frames;
-  std::optional<std::string> screenshot;
-  std::optional<std::string> script;
+  WindowOptions window;
 };
 
 /// Where the object stands, if the command line says anything about it.
@@ -40,24 +34,6 @@ std::optional<Placement> placement_of(const ObjectOptions& options) {
   if (options.turn) placement.pose.rotation = *options.turn;
   if (options.scale) placement.scale = *options.scale;
   return placement;
-}
-
-Result<viewer::Run> run_of(const ViewArguments& arguments) {
-  viewer::Run run;
-  run.width = arguments.size.width;
-  run.height = arguments.size.height;
-  run.frames = arguments.frames;
-  run.screenshot = arguments.screenshot;
-  if (!arguments.script) return run;
-  std::ifstream file(*arguments.script, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file) {
-    return Error{ErrorCode::not_found, fmt::format("{}: cannot be read", *arguments.script)};
-  }
-  Result<std::vector<viewer::ScriptedStep>> script = viewer::parse_script(text, *arguments.script);
-  if (!script) return script.error();
-  run.script = std::move(script).value();
-  return run;
 }
 
 Result<viewer::ViewerSetup> setup_of(const ViewArguments& arguments) {
@@ -80,16 +56,16 @@ Result<viewer::ViewerSetup> setup_of(const ViewArguments& arguments) {
 }
 
 Status run_view(const ViewArguments& arguments) {
-  if (arguments.screenshot && !arguments.headless && !arguments.frames) {
+  const WindowOptions& window = arguments.window;
+  if (window.screenshot && !window.headless && !window.frames) {
     return Error{ErrorCode::out_of_range,
                  "--screenshot of a window is of its last frame: expected --frames N with it"};
   }
-  const Result<viewer::Run> run = run_of(arguments);
+  const Result<viewer::Run> run = run_of(window);
   if (!run) return run.error();
   Result<viewer::ViewerSetup> setup = setup_of(arguments);
   if (!setup) return setup.error();
-  return arguments.headless ? viewer::run_headless(std::move(setup).value(), *run)
-                            : viewer::run_window(std::move(setup).value(), *run);
+  return show_in(window, std::move(setup).value(), *run);
 }
 
 }  // namespace
@@ -111,18 +87,7 @@ void add_view(CLI::App& app, Action& action) {
   add_hand_options(*command, arguments->hands);
   add_show_option(*command, arguments->shown);
   add_overlay_option(*command, arguments->overlays);
-  add_size_option(*command, arguments->size);
-  command->add_flag("--headless", arguments->headless,
-                    "draws without a display, as fast as it can");
-  command->add_option("--frames", arguments->frames, "ends after so many frames (headless: 60)")
-      ->type_name("N")
-      ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}));
-  command->add_option("--screenshot", arguments->screenshot, "writes the last frame as a PNG file")
-      ->type_name("FILE");
-  command
-      ->add_option("--script", arguments->script,
-                   "does by itself what the lines of a file say (docs/viewer.md)")
-      ->type_name("FILE");
+  add_window_options(*command, arguments->window);
   command->callback(
       [&action, arguments] { action = [arguments] { return run_view(*arguments); }; });
 }

@@ -23,7 +23,6 @@ constexpr double kStep_m = 0.02;
 constexpr std::int64_t kBetweenTimes_ns = 1'000'000'000;
 
 constexpr std::array<Method, 3> kMethods{Method::none, Method::paper, Method::nade};
-constexpr std::array<const char*, 3> kMethodNames{"none", "paper", "nade"};
 
 }  // namespace
 
@@ -54,8 +53,8 @@ void Chooser::rebuild() {
   panel.rows.push_back(row);
   row.clear();
   for (std::size_t i = 0; i < kMethods.size(); ++i) {
-    row.push_back(
-        {kFirstMethod + static_cast<int>(i), kMethodNames[i], kMethods[i] == show_.method});
+    row.push_back({kFirstMethod + static_cast<int>(i), std::string(name_of(kMethods[i])),
+                   kMethods[i] == show_.method});
   }
   panel.rows.push_back(row);
   panel.rows.push_back({{kCorrected, "corrected", show_.shown == draw::Shown::corrected},

@@ -56,18 +56,6 @@ class Interruptible {
 
 void say(const std::string& sentence) { std::fprintf(stderr, "nade: %s\n", sentence.c_str()); }
 
-std::string_view name_of(Method method) {
-  switch (method) {
-    case Method::none:
-      return "none";
-    case Method::paper:
-      return "paper";
-    case Method::nade:
-      break;
-  }
-  return "nade";
-}
-
 /// One run: what outlives sessions and runtimes, and what is done with them.
 class Loop {
  public:
@@ -155,8 +143,7 @@ Status Loop::go(RoomSetup setup_once) {
     headset_name_ = headset->name();
     say(headset_name_);
     if (setup) {
-      if (Status begun = begin(*std::move(setup), *headset); !begun) return begun;
-      setup.reset();
+      if (Status begun = begin(*std::exchange(setup, std::nullopt), *headset); !begun) return begun;
     }
     Result<std::unique_ptr<HeadsetSession>> session = HeadsetSession::create(*headset, *binding_);
     if (!session) return session.error();

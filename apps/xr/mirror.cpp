@@ -33,18 +33,6 @@ double deepest(const CorrectedHand& hand) {
   return depth_m;
 }
 
-std::string_view method_word(Method method) {
-  switch (method) {
-    case Method::none:
-      return "none";
-    case Method::paper:
-      return "paper";
-    case Method::nade:
-      break;
-  }
-  return "nade";
-}
-
 std::string hand_words(const MirrorFigures& figures, std::size_t side) {
   const std::string_view name = side == 0 ? "left" : "right";
   if (figures.hands[side] == HandStatus::untracked) return fmt::format("{} hand not tracked", name);
@@ -59,7 +47,7 @@ draw::Image band_of(const MirrorFigures& figures) {
   const draw::Color ink(0.75F, 0.75F, 0.75F);
   const std::array<std::string, 3> lines{
       fmt::format("{}, method {}", figures.object.empty() ? "no object" : figures.object,
-                  method_word(figures.method)),
+                  name_of(figures.method)),
       fmt::format(
           "{:.0f} frames a second; correction {:.0f} µs, drawing {:.2f} ms of processor time",
           figures.frames_a_second, 1e6 * figures.cost.correct_s,

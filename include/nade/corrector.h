@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string_view>
 
 #include "nade/contact.h"
 #include "nade/correction.h"
@@ -17,6 +18,10 @@ enum class Method : std::uint8_t {
   paper,  ///< contact rays, seated palm, laid fingers (2023)
   nade,   ///< the whole hand settles on the surface
 };
+
+/// "none", "paper" or "nade", as on the command line and in files.
+[[nodiscard]] std::string_view name_of(Method method);
+[[nodiscard]] std::optional<Method> method_from_name(std::string_view name);
 
 /// Where the length of a fingertip's c_j comes from. The palm's is always the mesh's.
 enum class SkinSource : std::uint8_t {

@@ -21,8 +21,6 @@
 #include "nade/assert.h"
 #include "nade/io/output_file.h"
 
-extern char** environ;
-
 namespace nade::draw {
 namespace {
 
@@ -136,6 +134,7 @@ Status FilmWriter::Impl::start() {
 Status FilmWriter::Impl::spawn(int read_end) {
   std::vector<std::string> arguments = encoder_arguments(format);
   std::vector<char*> pointers;
+  pointers.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
   // Moved out of the way first: any of them may be the very number another is to become.

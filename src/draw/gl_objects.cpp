@@ -26,17 +26,19 @@ class Shader {
 std::string log_of_shader(GLuint shader) {
   GLint length = 0;
   glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
-  std::string log(static_cast<std::size_t>(length) + 1, '\0');
-  glGetShaderInfoLog(shader, length, nullptr, log.data());
-  return log.c_str();
+  std::string log(static_cast<std::size_t>(length), '\0');
+  glGetShaderInfoLog(shader, length, &length, log.data());
+  log.resize(static_cast<std::size_t>(length));
+  return log;
 }
 
 std::string log_of_program(GLuint program) {
   GLint length = 0;
   glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
-  std::string log(static_cast<std::size_t>(length) + 1, '\0');
-  glGetProgramInfoLog(program, length, nullptr, log.data());
-  return log.c_str();
+  std::string log(static_cast<std::size_t>(length), '\0');
+  glGetProgramInfoLog(program, length, &length, log.data());
+  log.resize(static_cast<std::size_t>(length));
+  return log;
 }
 
 std::string_view last_of(std::initializer_list<std::string_view> files) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "frame_uniforms.h"
@@ -31,7 +32,9 @@ class LabelPass {
   struct Key {
     int glyph;
     int quarter_height;  ///< four times the height
-    auto operator<=>(const Key&) const = default;
+    friend bool operator<(const Key& a, const Key& b) {
+      return std::tie(a.glyph, a.quarter_height) < std::tie(b.glyph, b.quarter_height);
+    }
   };
   struct Quad {
     std::array<float, 4> place;  ///< left, top, width, height in the picture; pixels

@@ -61,7 +61,7 @@ class RowReader {
     if (!problem_.empty()) return std::nullopt;
     const Trial& trial = head_.trials[row.trial - 1];
     if (row.object != trial.object) fail(3, "object", trial.object);
-    if (row.method != method_name(trial.method)) fail(4, "method", method_name(trial.method));
+    if (row.method != name_of(trial.method)) fail(4, "method", name_of(trial.method));
     const auto& questions = head_.plan.questions;
     if (std::none_of(questions.begin(), questions.end(),
                      [&](const Question& question) { return question.id == row.question; })) {

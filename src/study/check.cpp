@@ -153,8 +153,7 @@ class Checker {
 
   void note(const Trial& trial, std::string_view what) {
     check_.notes.push_back(fmt::format("{}: trial {} ({}, {}) {}", participant_.folder,
-                                       trial.number, trial.object, method_name(trial.method),
-                                       what));
+                                       trial.number, trial.object, name_of(trial.method), what));
   }
 
   const Participant& participant_;

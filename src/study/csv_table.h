@@ -33,7 +33,4 @@ struct CsvTable {
 /// The error names file and line.
 [[nodiscard]] Result<CsvTable> read_csv(const std::string& path);
 
-/// A field, quoted where it has to be.
-[[nodiscard]] std::string csv_field(std::string_view text);
-
 }  // namespace nade::study

@@ -162,14 +162,14 @@ Status Exporter::add_trial(const Participant& participant, const std::string& la
   Json about;
   about["TaskDescription"] =
       fmt::format("{}Stroking a virtual {} with the bare hand; method {}",
-                  simulated_ ? "SIMULATED: " : "", trial.object, method_name(trial.method));
+                  simulated_ ? "SIMULATED: " : "", trial.object, name_of(trial.method));
   about["Instructions"] = instructions;
   about["SoftwareVersions"] = participant.head.tool;
   motion.about_json = about.dump();
   const Result<std::vector<std::string>> written = write_bids_motion(motion);
   if (!written) return written.error();
   for (const std::string& name : *written) {
-    scans += fmt::format("{}\t{}\t{}\n", name, trial.object, method_name(trial.method));
+    scans += fmt::format("{}\t{}\t{}\n", name, trial.object, name_of(trial.method));
   }
   motion.recording = from + ".corrected.jsonl.gz";
   motion.folder = fmt::format("{}/derivatives/nade/sub-{}/motion", bids_, label);

@@ -149,7 +149,7 @@ std::string participant_text(const ParticipantPlan& head) {
   json["order"] = Json::array();
   for (const Trial& trial : head.trials) {
     json["order"].push_back(
-        {{"trial", trial.number}, {"object", trial.object}, {"method", method_name(trial.method)}});
+        {{"trial", trial.number}, {"object", trial.object}, {"method", name_of(trial.method)}});
   }
   json["plan"] = json_of(head.plan);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -223,7 +223,7 @@ StudyProgress progress_of(const Participant& participant) {
 }
 
 std::string recording_stem(const Trial& trial, std::size_t attempt) {
-  return fmt::format("trial-{:02}-{}-{}{}", trial.number, trial.object, method_name(trial.method),
+  return fmt::format("trial-{:02}-{}-{}{}", trial.number, trial.object, name_of(trial.method),
                      attempt > 1 ? fmt::format("-attempt-{}", attempt) : "");
 }
 

@@ -12,8 +12,6 @@
 namespace nade::study {
 namespace {
 
-std::string name_of(Method method) { return std::string(method_name(method)); }
-
 GivenAnswer given(const KeptAnswer& kept, Origin origin) {
   GivenAnswer answer;
   answer.participant = kept.participant;
@@ -41,8 +39,8 @@ void add_skipped(const Participant& participant, const std::vector<KeptAnswer>& 
                     [&](const KeptAnswer& answer) { return answer.trial == line.trial; });
     if (answered) continue;
     const Trial& trial = trials[line.trial - 1];
-    data.skipped.push_back(
-        {participant.head.participant, trial.object, name_of(trial.method), line.reason});
+    data.skipped.push_back({participant.head.participant, trial.object,
+                            std::string(name_of(trial.method)), line.reason});
   }
 }
 
@@ -56,7 +54,8 @@ void add_recordings(const Participant& participant, const std::vector<KeptAnswer
                      [&](const KeptAnswer& counted) { return counted.trial == trial.number; });
     if (answer == counting.end()) continue;
     const std::string stem = recording_stem(trial, answer->attempt);
-    RecordedTrial recorded{participant.head.participant, trial.object, name_of(trial.method),
+    RecordedTrial recorded{participant.head.participant, trial.object,
+                           std::string(name_of(trial.method)),
                            (folder / (stem + ".tracked.jsonl.gz")).string(),
                            (folder / (stem + ".corrected.jsonl.gz")).string()};
     std::error_code aside;

@@ -9,8 +9,6 @@ namespace {
 constexpr std::uint64_t kDefaultSeed = 2023;
 constexpr std::size_t kIdentifierMax = 40;
 
-constexpr std::array<std::string_view, 3> kMethodNames{"none", "paper", "nade"};  // as Method
-
 std::vector<Text> default_instructions() {
   return {
       {"You will see an object and your own hands. Stroke the object with the palm and the fingers "
@@ -89,16 +87,6 @@ bool is_identifier(std::string_view text) {
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
   return !text.empty() && text.size() <= kIdentifierMax &&
          text.find_first_not_of(kLetters) == std::string_view::npos;
-}
-
-std::string_view method_name(Method method) {
-  return kMethodNames[static_cast<std::size_t>(method)];
-}
-
-std::optional<Method> method_from_name(std::string_view name) {
-  const auto* const found = std::find(kMethodNames.begin(), kMethodNames.end(), name);
-  if (found == kMethodNames.end()) return std::nullopt;
-  return static_cast<Method>(found - kMethodNames.begin());
 }
 
 }  // namespace nade::study

@@ -158,13 +158,13 @@ Json json_of(const Plan& plan) {
   json["objects"] = Json::array();
   for (const StudyObject& object : plan.objects) json["objects"].push_back(json_of(object));
   json["methods"] = Json::array();
-  for (const Method method : plan.methods) json["methods"].push_back(method_name(method));
+  for (const Method method : plan.methods) json["methods"].push_back(name_of(method));
   json["trial_s"] = plan.trial_s;
   json["countdown_s"] = plan.countdown_s;
   json["practice"] = nullptr;
   if (plan.practice) {
     json["practice"] = {{"object", plan.practice->object},
-                        {"method", method_name(plan.practice->method)},
+                        {"method", name_of(plan.practice->method)},
                         {"duration_s", plan.practice->duration_s}};
   }
   json["rest"] = nullptr;

@@ -3,7 +3,7 @@
 #include <iterator>
 #include <optional>
 
-#include "csv_table.h"
+#include "nade/io/csv.h"
 #include "nade/study/report.h"
 
 namespace nade::study {

@@ -99,7 +99,7 @@ MotionFiles StudyRun::Impl::files(const RunFrame& frame) const {
   const std::string placing =
       with_placing(files.tracked_header.unknown_json, ObjectPlacing{scene.spec, frame.object});
   Json corrected = Json::parse(placing);
-  corrected["method"] = method_name(scene.method);
+  corrected["method"] = name_of(scene.method);
   corrected["tool"] = store.options().tool;
   files.corrected_header = files.tracked_header;
   files.corrected_header.unknown_json = corrected.dump();

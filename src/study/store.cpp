@@ -179,7 +179,7 @@ Status StudyStore::Impl::keep_answer(const StudyEvent& event) {
   row.trial = event.trial;
   row.order = event.order;
   row.object = trial.object;
-  row.method = method_name(trial.method);
+  row.method = name_of(trial.method);
   row.question = head.plan.questions[event.question].id;
   row.answer = event.answer;
   row.response_time_s = 1e-9 * static_cast<double>(event.response_ns);

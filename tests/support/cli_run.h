@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "support/scratch_folder.h"
+
 namespace nade::test {
 
 inline std::string read_file(const std::string& path) {
@@ -31,25 +33,13 @@ struct Ran {
 
 /// Tests of the built program, each in an empty folder of its own, which is also where the
 /// program runs.
-class CliTest : public testing::Test {
+class CliTest : public FolderTest {
  protected:
-  void SetUp() override {
-    std::string pattern = testing::TempDir() + "nade_cli_XXXXXX";
-    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  [[nodiscard]] std::string path(const std::string& name) const {
-    return (folder_ / name).string();
-  }
-
   /// Runs a shell command line in which $NADE is the program. Nothing is a terminal.
   [[nodiscard]] Ran shell(const std::string& command) const {
-    const std::string kept = folder_.string() + ".ran";
-    const std::string line = "cd '" + folder_.string() +
-                             "' && { export NADE='" NADE_TEST_CLI "'; " + command + "\n} >" + kept +
-                             ".out 2>" + kept + ".err </dev/null";
+    const std::string kept = folder() + ".ran";
+    const std::string line = "cd '" + folder() + "' && { export NADE='" NADE_TEST_CLI "'; " +
+                             command + "\n} >" + kept + ".out 2>" + kept + ".err </dev/null";
     const int raw = std::system(line.c_str());
     Ran ran{WIFEXITED(raw) ? WEXITSTATUS(raw) : -1, read_file(kept + ".out"),
             read_file(kept + ".err")};
@@ -65,7 +55,7 @@ class CliTest : public testing::Test {
   /// Names of what the folder holds.
   [[nodiscard]] std::vector<std::string> files() const {
     std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder())) {
       names.push_back(entry.path().filename().string());
     }
     std::sort(names.begin(), names.end());
@@ -85,9 +75,6 @@ class CliTest : public testing::Test {
     EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
     EXPECT_NE(ran.err.find(part), std::string::npos) << ran.err << "lacks: " << part;
   }
-
- private:
-  std::filesystem::path folder_;
 };
 
 }  // namespace nade::test

@@ -1,8 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 
+#include "nade/corrector.h"
+#include "nade/flesh.h"
 #include "nade/hand_mesh.h"
+#include "nade/surface.h"
 #include "support/sample_hand.h"
 
 namespace nade::test {
@@ -27,6 +31,35 @@ inline bool all_finite(const HandPose& hand) {
   return std::all_of(hand.joints.begin(), hand.joints.end(), [](const Pose& joint) {
     return joint.position.allFinite() && joint.rotation.coeffs().allFinite();
   });
+}
+
+/// A corrector's options with the method of the whole hand.
+inline CorrectorOptions settling() {
+  CorrectorOptions options;
+  options.method = Method::nade;
+  return options;
+}
+
+inline Vec3 position_of(const FleshPoint& point, const HandPose& hand, double scale) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 0; k < point.joints.size(); ++k) {
+    sum += point.weights[k] * hand.joints[point.joints[k]].apply(scale * point.local[k]);
+  }
+  return sum;
+}
+
+/// Signed distance of the deepest skin; `reach_m` where none is nearer.
+inline double lowest_skin(const HandPose& hand, const Object& object,
+                          double reach_m = std::numeric_limits<double>::infinity()) {
+  const HandFlesh& flesh = generic_flesh(hand.side);
+  const double scale = hand_length(hand) / flesh.hand_length_m;
+  double lowest = reach_m;
+  for (const FleshPoint& point : flesh.skin) {
+    SurfaceHint hint;
+    const auto nearest = object.closest_point(position_of(point, hand, scale), reach_m, hint);
+    if (nearest) lowest = std::min(lowest, nearest->signed_distance);
+  }
+  return lowest;
 }
 
 inline double excess(double value, double low, double high) {

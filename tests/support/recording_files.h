@@ -11,23 +11,13 @@
 #include <vector>
 
 #include "nade/io/recording.h"
+#include "support/scratch_folder.h"
 
 namespace nade::test {
 
 /// Tests that write files, each in an empty folder of its own.
-class RecordingFiles : public testing::Test {
+class RecordingFiles : public FolderTest {
  protected:
-  void SetUp() override {
-    std::string pattern = testing::TempDir() + "nade_recording_XXXXXX";
-    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  [[nodiscard]] std::string path(const std::string& name) const {
-    return (folder_ / name).string();
-  }
-
   [[nodiscard]] std::string given(const std::string& name, const std::string& content) const {
     std::ofstream(path(name), std::ios::binary) << content;
     return path(name);
@@ -38,14 +28,11 @@ class RecordingFiles : public testing::Test {
   }
   [[nodiscard]] std::vector<std::string> files() const {
     std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder())) {
       names.push_back(entry.path().filename().string());
     }
     return names;
   }
-
- private:
-  std::filesystem::path folder_;
 };
 
 /// All of a recording, and how reading it ended.

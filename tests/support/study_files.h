@@ -11,24 +11,15 @@
 
 #include "nade/study/run.h"
 #include "support/sample_hand.h"
+#include "support/scratch_folder.h"
 
 namespace nade::test {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 /// Tests that keep studies, each in an empty folder of its own.
-class StudyFiles : public testing::Test {
+class StudyFiles : public FolderTest {
  protected:
-  void SetUp() override {
-    std::string pattern = testing::TempDir() + "nade_study_XXXXXX";
-    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  [[nodiscard]] std::string path(const std::string& name) const {
-    return (folder_ / name).string();
-  }
   [[nodiscard]] std::string content_of(const std::string& name) const {
     std::ifstream file(path(name), std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
@@ -57,9 +48,6 @@ class StudyFiles : public testing::Test {
     run.store.wall_clock = [] { return std::string("2026-11-21T02:40:00Z"); };
     return run;
   }
-
- private:
-  std::filesystem::path folder_;
 };
 
 /// A person who does what the panel asks, as fast as it lets them.

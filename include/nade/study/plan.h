@@ -111,8 +111,4 @@ struct Trial {
 /// digits, - and _.
 [[nodiscard]] bool is_identifier(std::string_view text);
 
-/// "none", "paper" or "nade", as on the command line.
-[[nodiscard]] std::string_view method_name(Method method);
-[[nodiscard]] std::optional<Method> method_from_name(std::string_view name);
-
 }  // namespace nade::study

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "nade/status.h"
+#include "picture_options.h"
+#include "window.h"
+
+namespace nade::cli {
+
+/// A window, or what draws without one, and how long it stays.
+struct WindowOptions {
+  PictureSize size;
+  bool headless = false;
+  std::optional<std::size_t> frames;
+  std::optional<std::string> screenshot;
+  std::optional<std::string> script;
+};
+
+/// The most frames of one run.
+constexpr std::size_t kWindowFramesMax = 10'000'000;
+
+void add_window_options(CLI::App& command, WindowOptions& options);
+
+/// Reads the script, if there is one. The error names the file and the line.
+[[nodiscard]] Result<viewer::Run> run_of(const WindowOptions& options);
+
+[[nodiscard]] Status show_in(const WindowOptions& options, viewer::ViewerSetup setup,
+                             const viewer::Run& run);
+
+}  // namespace nade::cli
