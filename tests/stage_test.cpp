@@ -239,6 +239,9 @@ struct Press {
   const char* object;
   Vec3 over;        ///< where the palm is pressed in
   Vec3 eye_offset;  ///< from there
+  friend std::ostream& operator<<(std::ostream& out, const Press& press) {
+    return out << press.object;
+  }
 };
 
 class StagePress : public StageTest, public testing::WithParamInterface<Press> {};
