@@ -10,6 +10,7 @@
 #include "support/brute_force.h"
 #include "support/meshes.h"
 #include "support/random.h"
+#include "support/sanitized.h"
 #include "support/surface_battery.h"
 
 namespace nade {
@@ -64,11 +65,7 @@ TriangleSoup broken_mesh() {
   return soup;
 }
 
-#if defined(__SANITIZE_ADDRESS__)
-constexpr int kMany = 10'000;
-#else
-constexpr int kMany = 100'000;
-#endif
+constexpr int kMany = test::kSanitized ? 5'000 : 100'000;
 
 struct QueryCounts {
   int rays;

@@ -501,7 +501,7 @@ TEST_F(Recording, WhatWasFlushedCanBeReadBeforeTheEnd) {
   }
 }
 
-#if !defined(__SANITIZE_ADDRESS__)
+#if !defined(NADE_SANITIZED)
 TEST_F(Recording, TenMinutesNeedNoMoreMemoryThanOne) {
   const auto peak_kib = [] {
     struct rusage usage {};

@@ -476,7 +476,7 @@ class StageFiles : public StageTest {
          {"max", {0.1, 0, 0.1}}},
         {{"bufferView", 1}, {"componentType", 5126}, {"count", 4}, {"type", "VEC2"}},
         {{"bufferView", 2}, {"componentType", 5123}, {"count", 6}, {"type", "SCALAR"}}};
-    gltf["images"] = {image};
+    gltf["images"].push_back(image);
     gltf["textures"] = {{{"source", 0}}};
     gltf["materials"] = {{{"pbrMetallicRoughness",
                            {{"baseColorTexture", {{"index", 0}}}, {"metallicFactor", 0.0}}}}};

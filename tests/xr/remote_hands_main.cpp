@@ -1,5 +1,7 @@
 // A person for Monado's remote driver:
-//   remote_hands stroke           strokes a ball whose top is before them, hand sunk into it
+//   remote_hands stroke           strokes a ball whose top is before them, hand sunk into it; the
+//                                 trackers lose the hand from time to time
+//   remote_hands steady           the same, and the hand is never lost
 //   remote_hands answer PANEL     presses what a panel asks for, strokes in between
 //   remote_hands press PANEL ID…  presses these buttons, one after another, then strokes
 // PANEL is what `--panel-log` writes. Goes on until it is ended, or the service goes.
@@ -107,15 +109,21 @@ class Person {
  private:
   bool pass() {
     time_s_ += kStep_s;
-    std::this_thread::sleep_until(start_ + std::chrono::duration<double>(time_s_));
+    const auto due = start_ + std::chrono::duration<double>(time_s_);
+    const auto now = Clock::now();
+    // Who waited for a panel does not hurry afterwards.
+    if (now > due) start_ += std::chrono::duration_cast<Clock::duration>(now - due);
+    std::this_thread::sleep_until(due);
     return driver_.send(state_);
   }
+
+  using Clock = std::chrono::steady_clock;
 
   RemoteDriver driver_;
   bool loses_;
   RemoteState state_ = looking_down();
   double time_s_ = 0.0;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Clock::time_point start_ = Clock::now();
 };
 
 /// What somebody who answers presses next: an answer, then what leads on.
@@ -167,9 +175,10 @@ int run(const std::vector<std::string>& words) {
     std::fprintf(stderr, "remote_hands: %s\n", driver.error().message.c_str());
     return 1;
   }
-  const bool strokes = words.front() == "stroke";
+  const bool loses = words.front() == "stroke";
+  const bool strokes = loses || words.front() == "steady";
   Person person(std::move(driver).value(),
-                strokes ? Person::Tracking::with_gaps : Person::Tracking::whole);
+                loses ? Person::Tracking::with_gaps : Person::Tracking::whole);
   std::vector<int> ids;
   for (std::size_t i = 2; i < words.size(); ++i) ids.push_back(std::atoi(words[i].c_str()));
   while (true) {
@@ -184,7 +193,7 @@ int run(const std::vector<std::string>& words) {
 
 int main(int argc, char** argv) {
   if (argc < 2) {
-    std::fprintf(stderr, "remote_hands stroke | answer PANEL | press PANEL ID...\n");
+    std::fprintf(stderr, "remote_hands stroke | steady | answer PANEL | press PANEL ID...\n");
     return 2;
   }
   return nade::test::run({argv + 1, argv + argc});
