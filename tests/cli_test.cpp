@@ -67,6 +67,7 @@ TEST_F(Cli, MisuseIsTwo) {
                                 "correct in.jsonl -o out.jsonl --object plane --press -1",
                                 "correct in.jsonl -o out.jsonl --object sphere:-1",
                                 "correct in.jsonl -o out.jsonl --object teapot",
+                                "correct in.jsonl -o out.jsonl --object plane --friction 3",
                                 "synth -o out.jsonl --object plane --stroke loop",
                                 "synth -o out.jsonl --object plane --rate 0",
                                 "synth -o out.jsonl --object plane --duration -1"}) {
@@ -413,6 +414,20 @@ TEST_F(Cli, ALivingObjectIsMeasuredAsItWasInEachFrame) {
   }
   EXPECT_EQ(nade("correct in.jsonl -o out.jsonl --object plane:alive").status, 2);
   EXPECT_EQ(nade("correct in.jsonl -o out.jsonl --object dog:alive:sleep").status, 2);
+}
+
+TEST_F(Cli, FrictionHoldsTheHandBack) {
+  ASSERT_EQ(nade("synth -o in.jsonl --object plane --depth 0.02 --duration 2").status, 0);
+  const auto lag_ms = [&](const std::string& friction) {
+    EXPECT_EQ(nade("correct in.jsonl -o out.jsonl --object plane " + friction).status, 0);
+    const Ran ran = nade("measure in.jsonl out.jsonl --json -");
+    return nlohmann::json::parse(ran.out)["linkage_lag_ms"].get<double>();
+  };
+  const double held_ms = lag_ms("--friction 1");
+  const double free_ms = lag_ms("");
+  EXPECT_GT(held_ms, free_ms + 20.0);
+  const auto header = nlohmann::json::parse(lines_of(read_file(path("out.jsonl")))[0]);
+  EXPECT_FALSE(header.contains("friction"));
 }
 
 TEST_F(Cli, TheSameResultOnEveryRun) {

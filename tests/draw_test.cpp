@@ -122,6 +122,14 @@ TEST(Text, OneCharacterOfSeveralBytesIsOneCharacter) {
   EXPECT_GT(text_width("\xE2\x82", 20.0F), 4.0F);
 }
 
+TEST(Text, JapaneseLettersAreOfTheSystemsFont) {
+  if (!japanese_font()) GTEST_SKIP() << "no Japanese font is installed";
+  // Not the box that stands for what no font has, and as wide as they are high.
+  EXPECT_NE(text_width("\u64ab", 30.0F), text_width("\U0010ffff", 30.0F));
+  EXPECT_FLOAT_EQ(text_width("\u64ab\u3067", 30.0F), 2.0F * text_width("\u64ab", 30.0F));
+  EXPECT_GT(text_width("\u64ab", 30.0F), 20.0F);
+}
+
 TEST(Text, IsDrawnWhereItSaysAndAsWide) {
   Image image = Image::blank(200, 60);
   draw_text(image, 20.0F, 10.0F, "stroke", 30.0F, {0.0F, 0.0F, 0.0F});

@@ -121,6 +121,12 @@ void add_method_options(CLI::App& command, MethodOptions& options) {
           "of the object: the skin sinks in by up to so much (method nade; default 0)")
       ->type_name("MM")
       ->check(CLI::Range(0.0, 20.0));
+  command
+      .add_option("--friction", options.corrector.settle.friction.coefficient,
+                  "to be seen: the hand lags along the surface by up to so many times the pressing "
+                  "depth, then slips (method nade; default 0)")
+      ->type_name("MU")
+      ->check(CLI::Range(0.0, 2.0));
   CLI::Option* const literal = command.add_flag("--paper-literal", options.literal,
                                                 "every open point as the paper's text has it");
   literal->group(kGroup);

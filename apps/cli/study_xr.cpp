@@ -5,6 +5,7 @@
 #include "console.h"
 #include "headset_run.h"
 #include "method_options.h"
+#include "nade/draw/text.h"
 #include "operator_words.h"
 #include "picture_options.h"
 #include "study_guide.h"
@@ -42,6 +43,9 @@ Status run_study_in_headset(const StudyRunArguments& arguments) {
   if (!hands) return hands.error();
   Result<std::unique_ptr<study::StudyRun>> opened = open_study(arguments, {"openxr", true});
   if (!opened) return opened.error();
+  if ((*opened)->session().plan().language == study::Language::japanese && !draw::japanese_font()) {
+    return Error{ErrorCode::not_found, std::string(draw::kNoJapaneseFont)};
+  }
   xr::StudyGuide study(**opened, arguments.speed);
   AttendedGuide guide(study);
   MethodOptions method;

@@ -7,6 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <optional>
+#include <string>
+
+#include "nade/draw/text.h"
 
 namespace nade::viewer {
 namespace {
@@ -69,20 +73,13 @@ ImFont* add_font(const char* file, float size) {
 
 /// Adds Japanese letters to the font that was added last; false where the system has none.
 bool add_japanese(float size) {
-  static constexpr std::array<const char*, 4> kFiles{
-      "/usr/share/fonts/opentype/ipafont-gothic/ipag.ttf",
-      "/usr/share/fonts/truetype/fonts-japanese-gothic.ttf",
-      "/usr/share/fonts/opentype/noto/NotoSansCJK-Regular.ttc",
-      "/usr/share/fonts/truetype/vlgothic/VL-Gothic-Regular.ttf"};
+  const std::optional<std::string> file = draw::japanese_font();
+  if (!file) return false;
   ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
   ImFontConfig config;
   config.MergeMode = true;
-  for (const char* file : kFiles) {
-    if (!std::filesystem::exists(file)) continue;
-    const ImWchar* const ranges = fonts.GetGlyphRangesJapanese();
-    if (fonts.AddFontFromFileTTF(file, size, &config, ranges) != nullptr) return true;
-  }
-  return false;
+  return fonts.AddFontFromFileTTF(file->c_str(), size, &config, fonts.GetGlyphRangesJapanese()) !=
+         nullptr;
 }
 
 }  // namespace
@@ -100,10 +97,7 @@ Result<std::unique_ptr<UiKit>> UiKit::create(float scale, Letters letters) {
   kit->bold_ = add_font("DejaVuSans-Bold.ttf", scale * kTextSize);
   kit->large_ = add_font("DejaVuSans.ttf", scale * kLargeSize);
   if (letters == Letters::japanese && !add_japanese(scale * kLargeSize)) {
-    return Error{
-        ErrorCode::not_found,
-        "no font with Japanese letters was found: install fonts-ipafont-gothic (Debian), or "
-        "run in English: --language en"};
+    return Error{ErrorCode::not_found, std::string(draw::kNoJapaneseFont)};
   }
   io.FontGlobalScale = 1.0F / scale;  // sharp letters in a coordinate system of points
   set_style();

@@ -4,9 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
 
 #include "embedded.h"
 #include "nade/assert.h"
+#include "nade/draw/text.h"
 
 namespace nade::draw {
 namespace {
@@ -14,12 +19,13 @@ namespace {
 struct Font {
   stbtt_fontinfo info{};
   float ascent = 0.0F;
+  bool read = false;
 
-  Font() {
-    const std::string_view file = embedded_file("DejaVuSans.ttf");
+  explicit Font(std::string_view file) {
     const auto* const bytes = reinterpret_cast<const unsigned char*>(file.data());
-    const bool read = !file.empty() && stbtt_InitFont(&info, bytes, 0) != 0;
-    NADE_ASSERT(read);
+    const int offset = file.empty() ? -1 : stbtt_GetFontOffsetForIndex(bytes, 0);
+    read = offset >= 0 && stbtt_InitFont(&info, bytes, offset) != 0;
+    if (!read) return;
     int up = 0;
     int down = 0;
     int gap = 0;
@@ -28,9 +34,38 @@ struct Font {
   }
 };
 
-const Font& font() {
-  static const Font kFont;
+const Font& main_font() {
+  static const Font kFont(embedded_file("DejaVuSans.ttf"));
+  NADE_ASSERT(kFont.read);
   return kFont;
+}
+
+std::string file_content(const std::optional<std::string>& path) {
+  if (!path) return {};
+  std::ifstream file(*path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// For the letters that the main one does not have; not read where the system has none.
+const Font& second_font() {
+  static const std::string kFile = file_content(japanese_font());
+  static const Font kFont(kFile);
+  return kFont;
+}
+
+/// Marks a glyph's number as one of the second font's, whose numbers end below.
+constexpr int kOfSecond = 1 << 16;
+
+int find_glyph(int character) {
+  if (character < 0) return 0;
+  const int glyph = stbtt_FindGlyphIndex(&main_font().info, character);
+  if (glyph != 0 || !second_font().read) return glyph;
+  const int other = stbtt_FindGlyphIndex(&second_font().info, character);
+  return other != 0 ? other | kOfSecond : 0;
+}
+
+const stbtt_fontinfo& font_of(int glyph) {
+  return (glyph & kOfSecond) != 0 ? second_font().info : main_font().info;
 }
 
 /// Takes one character off the front of `text`; -1 where the bytes are none.
@@ -60,22 +95,33 @@ int next_character(std::string_view& text) {
 
 }  // namespace
 
+std::optional<std::string> japanese_font() {
+  for (const char* file : {"/usr/share/fonts/opentype/ipafont-gothic/ipag.ttf",
+                           "/usr/share/fonts/truetype/fonts-japanese-gothic.ttf",
+                           "/usr/share/fonts/opentype/noto/NotoSansCJK-Regular.ttc",
+                           "/usr/share/fonts/truetype/vlgothic/VL-Gothic-Regular.ttf"}) {
+    if (std::filesystem::exists(file)) return file;
+  }
+  return std::nullopt;
+}
+
 void set_line(std::string_view utf8, float height_px, TextLine& line) {
-  const stbtt_fontinfo& info = font().info;
-  const float scale = stbtt_ScaleForPixelHeight(&info, height_px);
   line.glyphs.clear();
   float x = 0.0F;
-  int before = -1;
+  int before = 0;
   while (!utf8.empty()) {
-    const int character = next_character(utf8);
-    const int glyph = character < 0 ? 0 : stbtt_FindGlyphIndex(&info, character);
-    if (before >= 0) {
-      x += scale * static_cast<float>(stbtt_GetGlyphKernAdvance(&info, before, glyph));
+    const int glyph = find_glyph(next_character(utf8));
+    const stbtt_fontinfo& info = font_of(glyph);
+    const float scale = stbtt_ScaleForPixelHeight(&info, height_px);
+    const int number = glyph & ~kOfSecond;
+    if (!line.glyphs.empty() && &font_of(before) == &info) {
+      x +=
+          scale * static_cast<float>(stbtt_GetGlyphKernAdvance(&info, before & ~kOfSecond, number));
     }
     line.glyphs.push_back({glyph, x});
     int advance = 0;
     int bearing = 0;
-    stbtt_GetGlyphHMetrics(&info, glyph, &advance, &bearing);
+    stbtt_GetGlyphHMetrics(&info, number, &advance, &bearing);
     x += scale * static_cast<float>(advance);
     before = glyph;
   }
@@ -83,16 +129,17 @@ void set_line(std::string_view utf8, float height_px, TextLine& line) {
 }
 
 float ascent_px(float height_px) {
-  return font().ascent * stbtt_ScaleForPixelHeight(&font().info, height_px);
+  return main_font().ascent * stbtt_ScaleForPixelHeight(&main_font().info, height_px);
 }
 
 GlyphBitmap draw_glyph(int glyph, float height_px, float shift) {
-  const stbtt_fontinfo& info = font().info;
+  const stbtt_fontinfo& info = font_of(glyph);
+  const int number = glyph & ~kOfSecond;
   const float scale = stbtt_ScaleForPixelHeight(&info, height_px);
   int right = 0;
   int bottom = 0;
   GlyphBitmap bitmap;
-  stbtt_GetGlyphBitmapBoxSubpixel(&info, glyph, scale, scale, shift, 0.0F, &bitmap.left,
+  stbtt_GetGlyphBitmapBoxSubpixel(&info, number, scale, scale, shift, 0.0F, &bitmap.left,
                                   &bitmap.top, &right, &bottom);
   bitmap.width = std::max(right - bitmap.left, 0);
   bitmap.height = std::max(bottom - bitmap.top, 0);
@@ -100,7 +147,7 @@ GlyphBitmap draw_glyph(int glyph, float height_px, float shift) {
   bitmap.cover.resize(static_cast<std::size_t>(bitmap.width) *
                       static_cast<std::size_t>(bitmap.height));
   stbtt_MakeGlyphBitmapSubpixel(&info, bitmap.cover.data(), bitmap.width, bitmap.height,
-                                bitmap.width, scale, scale, shift, 0.0F, glyph);
+                                bitmap.width, scale, scale, shift, 0.0F, number);
   return bitmap;
 }
 

@@ -26,8 +26,8 @@ struct TextLine {
   float width_px = 0.0F;
 };
 
-/// Sets a line of UTF-8 in the embedded font; bytes that are no UTF-8 become boxes. `line` keeps
-/// its memory.
+/// Sets a line of UTF-8 in the embedded font, Japanese in japanese_font(); what neither has, and
+/// bytes that are no UTF-8, become boxes. `line` keeps its memory.
 void set_line(std::string_view utf8, float height_px, TextLine& line);
 
 /// From the top of a line to its baseline, pixels.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+#include <string>
 #include <string_view>
 
 #include "nade/draw/scene.h"
@@ -10,8 +12,17 @@ namespace nade::draw {
 /// descenders).
 [[nodiscard]] float text_width(std::string_view utf8, float height_px);
 
-/// Writes a line of text into a picture, its top left corner at (x, y). Characters that the font
-/// lacks become boxes.
+/// The file of an installed font with Japanese letters, which the embedded one lacks; none where
+/// the system has none of those we know.
+[[nodiscard]] std::optional<std::string> japanese_font();
+
+/// What to say where there is none and Japanese is to be shown.
+inline constexpr std::string_view kNoJapaneseFont =
+    "no font with Japanese letters was found: install fonts-ipafont-gothic (Debian), or run in "
+    "English: --language en";
+
+/// Writes a line of text into a picture, its top left corner at (x, y). Characters that no font
+/// has become boxes.
 void draw_text(Image& image, float x, float y, std::string_view utf8, float height_px,
                const Color& color);
 
