@@ -1,67 +1,12 @@
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
-#include "chooser.h"
-#include "frame_costs.h"
 #include "motion_files.h"
-#include "nade/draw/gl_context.h"
-#include "nade/io/hand_file.h"
-#include "room.h"
 #include "support/allocation_counter.h"
-#include "xr/remote_hands.h"
+#include "xr/room_fixture.h"
 
 namespace nade::xr {
 namespace {
-
-constexpr int kWidth = 160;
-constexpr int kHeight = 120;
-
-/// A person of 1.6 m to the eyes whose right hand strokes a ball before them.
-TrackedFrame frame_at(const HandPose& bind, int index) {
-  const test::RemoteState person = test::looking_down();
-  TrackedFrame frame;
-  frame.time_ns = 11'111'111LL * (index + 1);
-  frame.head = person.head;
-  for (std::size_t eye = 0; eye < 2; ++eye) {
-    frame.eyes[eye].pose = person.head * person.eyes[eye];
-    frame.eyes[eye].view = person.views[eye];
-  }
-  const Vec3 palm(0.04 * std::sin(0.05 * index), 1.18 + 0.005, -0.40);
-  // Palm down, fingers ahead.
-  const Pose level{palm, Quat::Identity()};
-  frame.hands[index_of(bind.side)] = moved(bind, level * bind[Joint::palm].inverse());
-  frame.draw = true;
-  frame.focused = true;
-  return frame;
-}
-
-class RoomTest : public testing::Test {
- protected:
-  void SetUp() override {
-    Result<draw::OffscreenContext> context = draw::OffscreenContext::create();
-    if (!context) GTEST_SKIP() << context.error().message;
-    context_.emplace(std::move(context).value());
-    RoomSetup setup;
-    for (const Handedness side : {Handedness::left, Handedness::right}) {
-      const std::string file = std::string(name_of(side)) + ".glb";
-      Result<HandMesh> mesh = load_hand_mesh(std::string(NADE_TEST_HANDS_DIR) + "/" + file, side);
-      if (!mesh) GTEST_SKIP() << mesh.error().message;
-      setup.hands[index_of(side)] = std::move(mesh).value();
-    }
-    setup.objects = {"sphere", "plane"};
-    bind_ = setup.hands[index_of(Handedness::right)].bind;
-    Result<std::unique_ptr<Room>> room = Room::create(std::move(setup));
-    ASSERT_TRUE(room.ok());
-    room_ = std::move(room).value();
-    room_->set(chooser_.show());
-  }
-  void TearDown() override { room_.reset(); }
-
-  std::optional<draw::OffscreenContext> context_;
-  HandPose bind_;
-  Chooser chooser_{{{"sphere", "plane"}}};
-  std::unique_ptr<Room> room_;
-};
 
 TEST_F(RoomTest, ObjectStandsBeforeThePersonAndTheHandOnIt) {
   room_->update(frame_at(bind_, 0));
@@ -94,32 +39,6 @@ TEST_F(RoomTest, EyesSeeTheRoomFromWhereTheyAre) {
   std::size_t lit = 0;
   for (std::size_t i = 0; i < left.rgba.size(); i += 4) lit += left.rgba[i] > 40 ? 1 : 0;
   EXPECT_GT(lit, static_cast<std::size_t>(kWidth * kHeight / 2));
-}
-
-TEST_F(RoomTest, FramesDoNotAllocate) {
-  unsigned framebuffer = 0;
-  unsigned texture = 0;
-  glCreateTextures(GL_TEXTURE_2D, 1, &texture);
-  glTextureStorage2D(texture, 1, GL_SRGB8_ALPHA8, kWidth, kHeight);
-  glCreateFramebuffers(1, &framebuffer);
-  glNamedFramebufferTexture(framebuffer, GL_COLOR_ATTACHMENT0, texture, 0);
-  const draw::Target target{framebuffer, 0, 0, kWidth, kHeight};
-  Show show = chooser_.show();
-  show.shown = draw::Shown::both;
-  room_->set(show);
-  FrameCosts costs;
-  const auto one = [&](int index) {
-    const TrackedFrame frame = frame_at(bind_, index);
-    room_->update(frame);
-    room_->draw({draw::Sight{frame.eyes[0], target}, draw::Sight{frame.eyes[1], target}});
-    costs.add(room_->cost());
-  };
-  for (int i = 0; i < 40; ++i) one(i);
-  EXPECT_EQ(test::allocations_of([&] {
-              for (int i = 40; i < 120; ++i) one(i);
-            }),
-            0U);
-  std::printf("%s\n", as_text(costs).c_str());
 }
 
 TEST(Chooser, ButtonsChooseAndMove) {

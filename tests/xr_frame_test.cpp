@@ -1,0 +1,67 @@
+// What a frame costs the headset's thread. Mesa's drivers leave out the drawing here, which without
+// a graphics card would be done on this very thread.
+#include <epoxy/gl.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "frame_costs.h"
+#include "support/allocation_counter.h"
+#include "support/sanitized.h"
+#include "xr/room_fixture.h"
+
+namespace nade::xr {
+namespace {
+
+const bool kNothingIsDrawn = ::setenv("GALLIUM_NOOP", "1", 1) == 0;
+
+/// Both hands on the ball, and the tracked ones as ghosts.
+class FrameTest : public RoomTest {
+ protected:
+  void SetUp() override {
+    RoomTest::SetUp();
+    if (!room_) return;
+    glCreateTextures(GL_TEXTURE_2D, 1, &texture_);
+    glTextureStorage2D(texture_, 1, GL_SRGB8_ALPHA8, kWidth, kHeight);
+    glCreateFramebuffers(1, &framebuffer_);
+    glNamedFramebufferTexture(framebuffer_, GL_COLOR_ATTACHMENT0, texture_, 0);
+    Show show = chooser_.show();
+    show.shown = draw::Shown::both;
+    room_->set(show);
+  }
+  void pass(int frames) {
+    const draw::Target target{framebuffer_, 0, 0, kWidth, kHeight};
+    for (const int end = next_ + frames; next_ < end; ++next_) {
+      TrackedFrame frame = frame_at(bind_, next_);
+      const std::size_t left = index_of(Handedness::left);
+      frame.hands[left] = frame_at(left_bind_, next_ + 30).hands[left];
+      room_->update(frame);
+      room_->draw({draw::Sight{frame.eyes[0], target}, draw::Sight{frame.eyes[1], target}});
+      costs_.add(room_->cost());
+    }
+  }
+
+  FrameCosts costs_;
+
+ private:
+  unsigned texture_ = 0;
+  unsigned framebuffer_ = 0;
+  int next_ = 0;
+};
+
+TEST_F(FrameTest, DoesNotAllocate) {
+  pass(40);
+  EXPECT_EQ(test::allocations_of([&] { pass(80); }), 0U);
+}
+
+TEST_F(FrameTest, TakesUnderTwoMillisecondsOfTheProcessor) {
+  if (test::kSanitized) GTEST_SKIP() << "not a question under sanitizers";
+  pass(500);
+  std::printf("%s\n", as_text(costs_).c_str());
+  EXPECT_GT(costs_.frames(), 300U);
+  EXPECT_LT(costs_.report().together.median_ms, 2.0);
+}
+
+}  // namespace
+}  // namespace nade::xr
