@@ -6,11 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <numbers>
 #include <optional>
-#include <sstream>
 
 #include "nade/draw/camera.h"
 #include "nade/draw/gl_context.h"
@@ -21,7 +19,6 @@
 namespace nade::draw {
 namespace {
 
-namespace fs = std::filesystem;
 using Vec3f = Eigen::Vector3f;
 
 constexpr int kWidth = 320;
@@ -29,135 +26,6 @@ constexpr int kHeight = 240;
 constexpr double kAspect = static_cast<double>(kWidth) / kHeight;
 constexpr double kRadius = 0.05;
 constexpr float kRadiusF = 0.05F;
-
-/// A file that is gone when the test is.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const std::string& name)
-      : path_((fs::temp_directory_path() /
-               (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + name))
-                  .string()) {}
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  ~TemporaryFile() { fs::remove(path_); }
-  [[nodiscard]] const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
-
-std::string bytes_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << file.rdbuf();
-  return bytes.str();
-}
-
-Image checkered() {
-  Image image = Image::blank(37, 21);
-  for (std::size_t i = 0; i < image.rgba.size(); ++i) {
-    image.rgba[i] = static_cast<std::uint8_t>(i * 7919 % 251);
-  }
-  return image;
-}
-
-TEST(Image, PngKeepsEveryPixel) {
-  const TemporaryFile file(".png");
-  const Image image = checkered();
-  ASSERT_TRUE(save_png(file.path(), image));
-  const Result<Image> loaded = load_image(file.path());
-  ASSERT_TRUE(loaded) << loaded.error().message;
-  EXPECT_EQ(loaded->width, image.width);
-  EXPECT_EQ(loaded->height, image.height);
-  EXPECT_EQ(loaded->rgba, image.rgba);
-}
-
-TEST(Image, SamePictureGivesTheSameFile) {
-  const TemporaryFile first("1.png");
-  const TemporaryFile second("2.png");
-  ASSERT_TRUE(save_png(first.path(), checkered()));
-  ASSERT_TRUE(save_png(second.path(), checkered()));
-  EXPECT_EQ(bytes_of(first.path()), bytes_of(second.path()));
-}
-
-TEST(Image, BrokenFileIsNamed) {
-  const TemporaryFile whole("1.png");
-  const TemporaryFile half("2.png");
-  ASSERT_TRUE(save_png(whole.path(), checkered()));
-  const std::string bytes = bytes_of(whole.path());
-  std::ofstream(half.path(), std::ios::binary) << bytes.substr(0, bytes.size() / 2);
-  const Result<Image> loaded = load_image(half.path());
-  ASSERT_FALSE(loaded);
-  EXPECT_EQ(loaded.error().code, ErrorCode::bad_format);
-  EXPECT_NE(loaded.error().message.find(half.path() + ": expected a PNG or JPEG picture"),
-            std::string::npos)
-      << loaded.error().message;
-}
-
-TEST(Image, MissingFileIsNamed) {
-  const Result<Image> loaded = load_image("/no/such/picture.png");
-  ASSERT_FALSE(loaded);
-  EXPECT_EQ(loaded.error().code, ErrorCode::not_found);
-  EXPECT_EQ(loaded.error().message, "/no/such/picture.png: No such file or directory");
-}
-
-TEST(Image, WhereNothingCanBeWrittenIsNamed) {
-  const Status saved = save_png("/no/such/folder/picture.png", checkered());
-  ASSERT_FALSE(saved);
-  EXPECT_NE(saved.error().message.find("/no/such/folder/picture.png"), std::string::npos);
-}
-
-TEST(Text, WidthGrowsWithHeightAndLength) {
-  EXPECT_FLOAT_EQ(text_width("", 20.0F), 0.0F);
-  EXPECT_GT(text_width("palm", 20.0F), 20.0F);
-  EXPECT_LT(text_width("palm", 20.0F), 60.0F);
-  EXPECT_NEAR(text_width("palm", 40.0F), 2.0F * text_width("palm", 20.0F), 0.01F);
-  EXPECT_GT(text_width("palms", 20.0F), text_width("palm", 20.0F));
-}
-
-TEST(Text, OneCharacterOfSeveralBytesIsOneCharacter) {
-  EXPECT_FLOAT_EQ(text_width("\xC3\xA9", 20.0F), text_width("e", 20.0F));
-  // A byte that is no UTF-8 is a box.
-  EXPECT_GT(text_width("\xFF", 20.0F), 4.0F);
-  EXPECT_GT(text_width("\xE2\x82", 20.0F), 4.0F);
-}
-
-TEST(Text, JapaneseLettersAreOfTheSystemsFont) {
-  if (!japanese_font()) GTEST_SKIP() << "no Japanese font is installed";
-  // Not the box that stands for what no font has, and as wide as they are high.
-  EXPECT_NE(text_width("\u64ab", 30.0F), text_width("\U0010ffff", 30.0F));
-  EXPECT_FLOAT_EQ(text_width("\u64ab\u3067", 30.0F), 2.0F * text_width("\u64ab", 30.0F));
-  EXPECT_GT(text_width("\u64ab", 30.0F), 20.0F);
-}
-
-TEST(Text, IsDrawnWhereItSaysAndAsWide) {
-  Image image = Image::blank(200, 60);
-  draw_text(image, 20.0F, 10.0F, "stroke", 30.0F, {0.0F, 0.0F, 0.0F});
-  int left = image.width;
-  int right = 0;
-  int top = image.height;
-  int bottom = 0;
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      if (image.rgba[static_cast<std::size_t>(4 * (y * image.width + x) + 3)] < 128) continue;
-      left = std::min(left, x);
-      right = std::max(right, x);
-      top = std::min(top, y);
-      bottom = std::max(bottom, y);
-    }
-  }
-  EXPECT_NEAR(left, 20, 3);
-  EXPECT_NEAR(right, 20.0F + text_width("stroke", 30.0F), 3);
-  EXPECT_GE(top, 10);
-  EXPECT_LE(bottom, 40);
-}
-
-TEST(Text, OutsideThePictureIsCutOff) {
-  Image image = Image::blank(10, 10);
-  draw_text(image, -30.0F, -20.0F, "palm", 80.0F, {1.0F, 0.0F, 0.0F});
-  draw_text(image, 1000.0F, 1000.0F, "palm", 80.0F, {1.0F, 0.0F, 0.0F});
-  EXPECT_EQ(image.rgba.size(), 400U);
-}
 
 TEST(Context, NoneIsSaid) {
   const Status checked = check_current_context();

@@ -25,7 +25,7 @@ struct DesktopArguments {
 };
 
 /// Without a window a study ends by itself; this is for one that nobody answers.
-constexpr std::size_t kFramesMax = kWindowFramesMax;
+constexpr std::size_t kFramesMax = 10'000'000;
 
 Status run_on_desktop(const StudyRunArguments& study, const DesktopArguments& arguments) {
   Result<viewer::Run> run = run_of(arguments.window);
@@ -54,7 +54,7 @@ Status run_on_desktop(const StudyRunArguments& study, const DesktopArguments& ar
 
 void add_desktop_options(CLI::App& command, DesktopArguments& arguments) {
   add_hand_options(command, arguments.hands);
-  add_window_options(command, arguments.window);
+  add_window_options(command, arguments.window, kFramesMax, "to the study's end");
 }
 
 #else

@@ -87,7 +87,7 @@ void add_view(CLI::App& app, Action& action) {
   add_hand_options(*command, arguments->hands);
   add_show_option(*command, arguments->shown);
   add_overlay_option(*command, arguments->overlays);
-  add_window_options(*command, arguments->window);
+  add_window_options(*command, arguments->window, 1'000'000, "60");
   command->callback(
       [&action, arguments] { action = [arguments] { return run_view(*arguments); }; });
 }

@@ -9,12 +9,15 @@
 
 namespace nade::cli {
 
-void add_window_options(CLI::App& command, WindowOptions& options) {
+void add_window_options(CLI::App& command, WindowOptions& options, std::size_t frames_max,
+                        const std::string& without_display) {
   add_size_option(command, options.size);
   command.add_flag("--headless", options.headless, "draws without a display, as fast as it can");
-  command.add_option("--frames", options.frames, "ends after so many frames")
+  command
+      .add_option("--frames", options.frames,
+                  fmt::format("ends after so many frames (headless: {})", without_display))
       ->type_name("N")
-      ->check(CLI::Range(std::size_t{1}, kWindowFramesMax));
+      ->check(CLI::Range(std::size_t{1}, frames_max));
   command.add_option("--screenshot", options.screenshot, "writes the last frame as a PNG file")
       ->type_name("FILE");
   command

@@ -20,10 +20,9 @@ struct WindowOptions {
   std::optional<std::string> script;
 };
 
-/// The most frames of one run.
-constexpr std::size_t kWindowFramesMax = 10'000'000;
-
-void add_window_options(CLI::App& command, WindowOptions& options);
+/// `without_display` is how long it stays there if nothing is said, for the help.
+void add_window_options(CLI::App& command, WindowOptions& options, std::size_t frames_max,
+                        const std::string& without_display);
 
 /// Reads the script, if there is one. The error names the file and the line.
 [[nodiscard]] Result<viewer::Run> run_of(const WindowOptions& options);

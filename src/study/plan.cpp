@@ -1,7 +1,6 @@
 #include "nade/study/plan.h"
 
 #include <algorithm>
-#include <array>
 
 namespace nade::study {
 namespace {

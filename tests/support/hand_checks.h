@@ -54,8 +54,8 @@ inline double lowest_skin(const HandPose& hand, const Object& object,
   const HandFlesh& flesh = generic_flesh(hand.side);
   const double scale = hand_length(hand) / flesh.hand_length_m;
   double lowest = reach_m;
+  SurfaceHint hint;
   for (const FleshPoint& point : flesh.skin) {
-    SurfaceHint hint;
     const auto nearest = object.closest_point(position_of(point, hand, scale), reach_m, hint);
     if (nearest) lowest = std::min(lowest, nearest->signed_distance);
   }
