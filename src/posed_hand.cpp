@@ -98,22 +98,22 @@ PosedHand pose_hand(const HandModel& model, const Correction& correction) noexce
 ContactRow motion_along(const PosedHand& posed, const FleshPoint& point,
                         const Vec3& direction) noexcept {
   ContactRow row;
-  const Vec3 from_palm = posed.flesh.position(point) - posed.hand[Joint::palm].position;
-  row.wrist.head<3>() = direction;
-  row.wrist.tail<3>() = from_palm.cross(direction);
   const std::size_t digit = leading_digit(point);
-  if (digit == kDigitCount) return row;
-  row.digit = digit_at(digit);
-  const DigitAxes& axes = posed.axes[digit];
+  Vec3 position = Vec3::Zero();
   for (std::size_t k = 0; k < point.joints.size() && point.weights[k] > 0.0; ++k) {
     const std::size_t joint = point.joints[k];
-    if (kCarriers[joint].digit != digit) continue;
     const Vec3 carried = posed.flesh.linear[joint] * point.local[k] + posed.flesh.origin[joint];
+    position += point.weights[k] * carried;
+    if (digit == kDigitCount || kCarriers[joint].digit != digit) continue;
+    const DigitAxes& axes = posed.axes[digit];
     for (std::size_t f = 0; f < kCarriers[joint].freedoms; ++f) {
       const double lever = axes.axis[f].dot((carried - axes.center[f]).cross(direction));
       row.bend[static_cast<Eigen::Index>(f)] += point.weights[k] * lever;
     }
   }
+  row.wrist.head<3>() = direction;
+  row.wrist.tail<3>() = (position - posed.hand[Joint::palm].position).cross(direction);
+  if (digit != kDigitCount) row.digit = digit_at(digit);
   return row;
 }
 

@@ -170,7 +170,7 @@ void Settling::start() {
   if (!same_surface || placement.scale != memory_.object.scale || shape != memory_.shape) {
     for (PadMemory& pad : memory_.pads) {
       pad.plane.reset();
-      pad.clearance_m = 0.0;
+      pad.clearance_m = pad.free_m = 0.0;
     }
   }
   const HandPose& tracked = model_.tracked;

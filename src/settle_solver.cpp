@@ -15,9 +15,8 @@ namespace {
 
 constexpr int kMostSteps = 16;
 constexpr int kMostSearches = 24;
-/// A step that saves less than this share of the cost, or this much of it, is the last.
-constexpr double kSmallestSaving = 1e-9;
-constexpr double kSmallestCost = 1e-12;
+/// A change of every freedom by less than this, in metres or radians, is none.
+constexpr double kSmallestChange = 1e-8;
 
 double along(const ContactRow& row, const HandFreedoms& change) {
   double sum = row.wrist.dot(change.head<6>());
@@ -68,7 +67,9 @@ struct Hessian {
     std::array<Eigen::Vector4d, kDigitCount> inverse_right;
     for (std::size_t d = 0; d < kDigitCount; ++d) {
       const Eigen::LLT<Eigen::Matrix4d> factor(digit[d]);
-      inverse_coupling[d] = factor.solve(coupling[d].transpose());
+      for (Eigen::Index i = 0; i < 6; ++i) {  // a column at a time is unrolled, a matrix is not
+        inverse_coupling[d].col(i) = factor.solve(coupling[d].row(i).transpose());
+      }
       inverse_right[d] = factor.solve(right.segment<4>(first_freedom(d)));
       reduced.noalias() -= coupling[d] * inverse_coupling[d];
       wrist_right.noalias() -= coupling[d] * inverse_right[d];
@@ -115,26 +116,13 @@ class Descent {
     return hessian.solve(force);
   }
 
-  /// Goes to the least cost along a direction; gives what that saves.
+  /// Goes to the least cost along a direction; gives how far along that is.
   double advance(const HandFreedoms& direction) {
     for (std::size_t i = 0; i < count_; ++i) changes_[i] = along(problem_.rows[i], direction);
-    const double before = cost();
     const double length = best_length(direction);
     step_ += length * direction;
     for (std::size_t i = 0; i < count_; ++i) gaps_[i] += length * changes_[i];
-    return before - cost();
-  }
-
-  [[nodiscard]] double cost() const {
-    double sum = (problem_.back.from + step_).cwiseAbs2().dot(problem_.back.stiffness) +
-                 (problem_.viscous.from + step_).cwiseAbs2().dot(problem_.viscous.stiffness);
-    for (const Walls* walls : {&problem_.range, &problem_.rate}) {
-      sum += beyond(*walls, step_).cwiseAbs2().dot(walls->stiffness);
-    }
-    for (std::size_t i = 0; i < count_; ++i) {
-      sum += stiffness_at(problem_.rows[i], gaps_[i]) * gaps_[i] * gaps_[i];
-    }
-    return 0.5 * sum;
+    return length;
   }
 
   [[nodiscard]] const HandFreedoms& step() const { return step_; }
@@ -205,8 +193,9 @@ double gap_after(const ContactRow& row, const HandFreedoms& step) noexcept {
 HandFreedoms least_cost_step(const SettleProblem& problem) noexcept {
   Descent descent(problem);
   for (int i = 0; i < kMostSteps; ++i) {
-    const double saved = descent.advance(descent.newton_direction());
-    if (saved <= kSmallestSaving * descent.cost() + kSmallestCost) break;
+    const HandFreedoms direction = descent.newton_direction();
+    if (direction.cwiseAbs().maxCoeff() < kSmallestChange) break;
+    if (descent.advance(direction) == 1.0) break;  // the quadratic holds all the way: that is it
   }
   return descent.step();
 }

@@ -1,6 +1,7 @@
 #include "touch_finder.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace nade {
 namespace {
@@ -18,7 +19,9 @@ constexpr double kPullStiffness = 1.0 / (0.006 * 0.006);
 
 /// A pad that is too far is not looked at again until it could have come so much nearer.
 constexpr double kFarSlack_m = 0.02;
-/// Skin stretches by no more than this when the hand is posed.
+/// Nor is one that faces away, until it could have come this share of what its skin lacks to a row.
+constexpr double kUnseen = 0.5;
+/// Skin stretches by no more than this when the hand is posed, and goes no farther than a joint.
 constexpr double kStretch = 1.3;
 
 /// The plane through the surface point nearest to a pad's middle. The surface's own normal, which
@@ -34,22 +37,35 @@ PadPlane plane_at(const SurfacePoint& nearest, const Vec3& middle) {
 
 /// The plane of a pad, if it is near enough to matter: found anew, or as it was.
 const PadPlane* plane_of(const Object& object, const Vec3& middle_world, double reach_m,
-                         double same_plane_m, PadMemory& known) {
+                         double same_plane_m, double travel_m, PadMemory& known) {
   const Placement& placement = object.placement();
+  const double scale = placement.scale;
   const Vec3 middle = placement.to_local(middle_world);
-  const double away_m = placement.scale * (middle - known.middle).norm();
+  const double away_m = scale * (middle - known.middle).norm();
+  known.free_m = known.clearance_m - away_m + travel_m;
   if (known.clearance_m - away_m > reach_m) return nullptr;
   if (known.plane && away_m <= same_plane_m) return &*known.plane;
-  const double scale = placement.scale;
   const double search_m = reach_m + kFarSlack_m;
   const std::optional<SurfacePoint> nearest =
       object.surface().closest_point(middle, search_m / scale, known.hint);
   known.middle = middle;
   known.plane.reset();
   known.clearance_m = nearest ? scale * nearest->signed_distance : search_m;
+  known.free_m = known.clearance_m + travel_m;
   if (!nearest || known.clearance_m > reach_m) return nullptr;
   known.plane = plane_at(*nearest, middle);
   return &*known.plane;
+}
+
+/// Adds how far the hand has gone against the object since the last look.
+void count_travel(const Object& object, const HandPose& hand, SettleMemory& memory) {
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    const Vec3 joint = object.placement().to_local(hand.joints[i].position);
+    farthest = std::max(farthest, (joint - memory.joints[i]).squaredNorm());
+    memory.joints[i] = joint;
+  }
+  memory.travel_m += kStretch * object.placement().scale * std::sqrt(farthest);
 }
 
 ContactRow row_of(const TouchSearch& search, const PosedHand& posed, const FleshPoint& point,
@@ -60,15 +76,18 @@ ContactRow row_of(const TouchSearch& search, const PosedHand& posed, const Flesh
   return row;
 }
 
-/// Takes in a pad's skin: rows for what is near, and what its part needs to know.
-void add_pad(const TouchSearch& search, const FleshPad& pad, const PadPlane& plane,
-             const PosedHand& posed, PartTouches& parts, std::vector<ContactRow>& rows) {
+/// Takes in a pad's skin: rows for what is near, and what its part needs to know. Gives the lowest
+/// skin's height.
+double add_pad(const TouchSearch& search, const FleshPad& pad, const PadPlane& plane,
+               const PosedHand& posed, PartTouches& parts, std::vector<ContactRow>& rows) {
   const Placement& placement = search.object.placement();
   const Vec3 surface_point = placement.to_world(plane.point);
   const Vec3 normal = placement.pose.rotation * plane.normal;
+  double lowest_m = std::numeric_limits<double>::infinity();
   for (std::size_t k = pad.first; k < pad.first + pad.count; ++k) {
     const FleshPoint& point = search.flesh.skin[k];
     const double gap_m = normal.dot(posed.flesh.position(point) - surface_point);
+    lowest_m = std::min(lowest_m, gap_m);
     if (pad.part) {
       PartTouch& part = parts[index_of(*pad.part)];
       const Vec3 tracked = search.tracked.position(point);
@@ -84,6 +103,7 @@ void add_pad(const TouchSearch& search, const FleshPad& pad, const PadPlane& pla
     ContactRow& row = rows.emplace_back(row_of(search, posed, point, normal));
     row.gap_m = gap_m + search.sink_m - kMargin_m;
   }
+  return lowest_m;
 }
 
 void add_pulls(const TouchSearch& search, const PosedHand& posed, const PartTouches& parts,
@@ -109,14 +129,22 @@ double smoothstep(double from, double to, double x) noexcept {
 PartTouches find_touches(const TouchSearch& search, const PosedHand& posed, double same_plane_m,
                          SettleMemory& memory) noexcept {
   memory.rows.clear();
+  count_travel(search.object, posed.hand, memory);
   PartTouches parts;
   for (std::size_t i = 0; i < search.flesh.pads.size(); ++i) {
     const FleshPad& pad = search.flesh.pads[i];
     const double reach_m = kStretch * search.scale * pad.radius_m +
                            std::max(search.row_reach_m, pad.part ? kPullReach_m : 0.0);
+    PadMemory& known = memory.pads[i];
+    if (known.free_m - memory.travel_m > reach_m) continue;
     const PadPlane* plane = plane_of(search.object, posed.flesh.position(pad.middle), reach_m,
-                                     same_plane_m, memory.pads[i]);
-    if (plane != nullptr) add_pad(search, pad, *plane, posed, parts, memory.rows);
+                                     same_plane_m, memory.travel_m, known);
+    if (plane == nullptr) continue;
+    const double lowest_m = add_pad(search, pad, *plane, posed, parts, memory.rows);
+    if (pad.part || lowest_m <= search.row_reach_m) continue;
+    known.clearance_m =
+        std::max(known.clearance_m, reach_m + kUnseen * (lowest_m - search.row_reach_m));
+    known.free_m = known.clearance_m + memory.travel_m;
   }
   add_pulls(search, posed, parts, memory.rows);
   return parts;

@@ -38,9 +38,9 @@ struct PadPlane {
 struct PadMemory {
   SurfaceHint hint;
   std::optional<PadPlane> plane;
-  /// Where it was too far to matter: nothing within `clearance_m` of there. Object frame.
-  Vec3 middle = Vec3::Zero();
-  double clearance_m = 0.0;
+  Vec3 middle = Vec3::Zero();  ///< where it was looked for last; object frame
+  double clearance_m = 0.0;    ///< there; more where its skin faces away
+  double free_m = 0.0;         ///< what was left of that when last seen, plus `travel_m` then
 };
 
 /// One point of the skin against one plane: how its gap grows with the hand's freedoms.
@@ -66,6 +66,8 @@ struct SettleMemory {
   bool slips = false;
   std::vector<PadMemory> pads;
   std::vector<ContactRow> rows;
+  std::array<Vec3, kJointCount> joints{};  ///< of the hand as looked at last; object frame
+  double travel_m = 0.0;  ///< the sum of what its farthest joint went from look to look
 };
 
 /// A memory with room for a hand's pads; settle_hand allocates nothing then.
