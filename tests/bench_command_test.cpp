@@ -47,6 +47,9 @@ TEST_F(BenchCommand, QuickSuiteIsTheSameWhateverTheJobs) {
             json["methods"]["none"]["penetration_max_mm"]["median"]);
   const std::string table = read_file(path("one.md"));
   EXPECT_NE(table.find("| penetration_max_mm (at most 2) |"), std::string::npos);
+  const std::size_t missed = table.find("| paper misses the target of | in |");
+  ASSERT_NE(missed, std::string::npos);
+  EXPECT_NE(table.find("penetration_max_mm", missed), std::string::npos);
   const Ran two = nade("bench --quick " + kMethods + " --jobs 2 --csv -");
   ASSERT_EQ(two.status, 0) << two.err;
   EXPECT_EQ(without_times(two.out), without_times(read_file(path("one.csv"))));

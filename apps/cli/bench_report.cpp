@@ -6,6 +6,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <string_view>
+#include <utility>
 
 #include "nade/io/csv.h"
 
@@ -36,6 +37,24 @@ std::string title_of(const BenchFigure& figure) {
   std::string title = figure.key;
   if (has_target(figure.target)) title += fmt::format(" ({})", shown(figure.target));
   return title;
+}
+
+/// The cases in which a method misses a figure's target, the worst first, as "value case; ...".
+std::string missed_in(const BenchReport& report, std::size_t method, const BenchFigure& figure) {
+  std::vector<std::pair<double, std::size_t>> missed;
+  for (std::size_t i = 0; i < report.cases.size(); ++i) {
+    const std::optional<double> value = figure.of(report.at(i, method));
+    if (value && !meets(figure.target, *value).value_or(true)) missed.emplace_back(*value, i);
+  }
+  std::stable_sort(missed.begin(), missed.end(), [&](const auto& a, const auto& b) {
+    return badness(figure.target, a.first) > badness(figure.target, b.first);
+  });
+  std::string text;
+  for (const auto& [value, i] : missed) {
+    fmt::format_to(std::back_inserter(text), "{}{} {}", text.empty() ? "" : "; ", shown(value),
+                   report.cases[i]);
+  }
+  return text;
 }
 
 }  // namespace
@@ -137,6 +156,13 @@ std::string as_markdown(const BenchReport& report) {
       fmt::format_to(out, " {} |", summary ? report.cases[summary->worst_case] : "-");
     }
     text += '\n';
+  }
+  for (std::size_t m = 0; m < report.methods.size(); ++m) {
+    fmt::format_to(out, "\n| {} misses the target of | in |\n|---|---|\n", report.methods[m]);
+    for (const BenchFigure& figure : figures) {
+      const std::string missed = missed_in(report, m, figure);
+      if (!missed.empty()) fmt::format_to(out, "| {} | {} |\n", title_of(figure), missed);
+    }
   }
   return text;
 }

@@ -47,8 +47,8 @@ struct BenchSummary {
 [[nodiscard]] std::optional<BenchSummary> summary_of(const BenchReport& report, std::size_t method,
                                                      const BenchFigure& figure);
 
-/// The table for people; a table for each figure with its worst cases; one line a case, method and
-/// figure.
+/// The table for people; the tables of medians and of worst cases, and for each method the cases in
+/// which it misses a target; one line a case, method and figure.
 [[nodiscard]] std::string as_text(const BenchReport& report);
 [[nodiscard]] std::string as_markdown(const BenchReport& report);
 [[nodiscard]] std::string as_csv(const BenchReport& report);
