@@ -31,13 +31,13 @@ constexpr double kRowReachOfMotion = 0.4;
 // motion, and a little more, so that a hand at rest is released as well.
 constexpr double kShiftRate = 1.5;
 constexpr double kTurnRate = 0.6;
-constexpr double kBendRate = 0.6;
+constexpr double kBendRate = 0.45;
 constexpr double kFreeRate_mps = 0.012;
 constexpr double kTurnLever_m = 0.10;
 constexpr double kBendLever_m = 0.07;
 constexpr double kWallStiffness = 1e5;
 /// Turns and bends follow with this time constant.
-constexpr double kViscosity_s = 0.03;
+constexpr double kViscosity_s = 0.015;
 /// And shifts along the surface with this.
 constexpr double kSlideTime_s = 0.05;
 /// The direction of the object's push is smoothed over this time.
@@ -54,9 +54,6 @@ constexpr int kRounds = 3;
 constexpr int kFirstRounds = 8;
 /// A round that moves no skin farther than this is the last.
 constexpr double kSettled_m = 0.0002;
-/// A pad's plane serves for as long as the pad stays within this.
-constexpr double kSamePlane_m = 0.0004;
-constexpr double kSamePlaneNextFrame_m = 0.00002;
 /// A hand that is found anew is got out of the object if it lies no deeper than this.
 constexpr double kDeepest_m = 0.3;
 constexpr double kLongestTurn_rad = 0.3;
@@ -125,8 +122,7 @@ class Settling {
     const int rounds = fresh_ ? kFirstRounds : kRounds;
     for (int round = 0; round < rounds; ++round) {
       const PosedHand posed = pose_hand(model_, correction_);
-      parts_ =
-          find_touches(search_, posed, round == 0 ? kSamePlaneNextFrame_m : kSamePlane_m, memory_);
+      parts_ = find_touches(search_, posed, memory_);
       if (memory_.rows.empty() && is_none(correction_)) break;
       const HandFreedoms step = least_cost_step(problem());
       take_step(step);

@@ -17,6 +17,8 @@ constexpr double kPullStart_m = 0.001;
 constexpr double kPullFull_m = 0.02;
 constexpr double kPullStiffness = 1.0 / (0.006 * 0.006);
 
+/// A pad's plane serves for as long as the pad stays within this.
+constexpr double kSamePlane_m = 0.00002;
 /// A pad that is too far is not looked at again until it could have come so much nearer.
 constexpr double kFarSlack_m = 0.02;
 /// Nor is one that faces away, until it could have come this share of what its skin lacks to a row.
@@ -37,14 +39,14 @@ PadPlane plane_at(const SurfacePoint& nearest, const Vec3& middle) {
 
 /// The plane of a pad, if it is near enough to matter: found anew, or as it was.
 const PadPlane* plane_of(const Object& object, const Vec3& middle_world, double reach_m,
-                         double same_plane_m, double travel_m, PadMemory& known) {
+                         double travel_m, PadMemory& known) {
   const Placement& placement = object.placement();
   const double scale = placement.scale;
   const Vec3 middle = placement.to_local(middle_world);
   const double away_m = scale * (middle - known.middle).norm();
   known.free_m = known.clearance_m - away_m + travel_m;
   if (known.clearance_m - away_m > reach_m) return nullptr;
-  if (known.plane && away_m <= same_plane_m) return &*known.plane;
+  if (known.plane && away_m <= kSamePlane_m) return &*known.plane;
   const double search_m = reach_m + kFarSlack_m;
   const std::optional<SurfacePoint> nearest =
       object.surface().closest_point(middle, search_m / scale, known.hint);
@@ -126,7 +128,7 @@ double smoothstep(double from, double to, double x) noexcept {
   return t * t * (3.0 - 2.0 * t);
 }
 
-PartTouches find_touches(const TouchSearch& search, const PosedHand& posed, double same_plane_m,
+PartTouches find_touches(const TouchSearch& search, const PosedHand& posed,
                          SettleMemory& memory) noexcept {
   memory.rows.clear();
   count_travel(search.object, posed.hand, memory);
@@ -137,8 +139,8 @@ PartTouches find_touches(const TouchSearch& search, const PosedHand& posed, doub
                            std::max(search.row_reach_m, pad.part ? kPullReach_m : 0.0);
     PadMemory& known = memory.pads[i];
     if (known.free_m - memory.travel_m > reach_m) continue;
-    const PadPlane* plane = plane_of(search.object, posed.flesh.position(pad.middle), reach_m,
-                                     same_plane_m, memory.travel_m, known);
+    const PadPlane* plane =
+        plane_of(search.object, posed.flesh.position(pad.middle), reach_m, memory.travel_m, known);
     if (plane == nullptr) continue;
     const double lowest_m = add_pad(search, pad, *plane, posed, parts, memory.rows);
     if (pad.part || lowest_m <= search.row_reach_m) continue;

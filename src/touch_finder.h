@@ -35,10 +35,9 @@ struct TouchSearch {
   Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  ///< in which the rows' wrist is counted
 };
 
-/// Fills `memory.rows` for a posed hand. A pad's plane is looked for anew where the pad has moved
-/// by more than `same_plane_m`.
+/// Fills `memory.rows` for a posed hand.
 [[nodiscard]] PartTouches find_touches(const TouchSearch& search, const PosedHand& posed,
-                                       double same_plane_m, SettleMemory& memory) noexcept;
+                                       SettleMemory& memory) noexcept;
 
 /// 0 below `from`, 1 above `to`, smooth between.
 [[nodiscard]] double smoothstep(double from, double to, double x) noexcept;
