@@ -17,8 +17,10 @@ constexpr double kPullStart_m = 0.001;
 constexpr double kPullFull_m = 0.02;
 constexpr double kPullStiffness = 1.0 / (0.006 * 0.006);
 
-/// A pad's plane serves for as long as the pad stays within this.
+/// A pad's plane serves for as long as the pad stays within this, or within this share of how far
+/// its skin is from touching.
 constexpr double kSamePlane_m = 0.00002;
+constexpr double kSamePlaneOfGap = 0.2;
 /// A pad that is too far is not looked at again until it could have come so much nearer.
 constexpr double kFarSlack_m = 0.02;
 /// Nor is one that faces away, until it could have come this share of what its skin lacks to a row.
@@ -46,7 +48,7 @@ const PadPlane* plane_of(const Object& object, const Vec3& middle_world, double 
   const double away_m = scale * (middle - known.middle).norm();
   known.free_m = known.clearance_m - away_m + travel_m;
   if (known.clearance_m - away_m > reach_m) return nullptr;
-  if (known.plane && away_m <= kSamePlane_m) return &*known.plane;
+  if (known.plane && away_m <= known.same_m) return &*known.plane;
   const double search_m = reach_m + kFarSlack_m;
   const std::optional<SurfacePoint> nearest =
       object.surface().closest_point(middle, search_m / scale, known.hint);
@@ -56,6 +58,7 @@ const PadPlane* plane_of(const Object& object, const Vec3& middle_world, double 
   known.free_m = known.clearance_m + travel_m;
   if (!nearest || known.clearance_m > reach_m) return nullptr;
   known.plane = plane_at(*nearest, middle);
+  known.same_m = kSamePlane_m;
   return &*known.plane;
 }
 
@@ -143,7 +146,9 @@ PartTouches find_touches(const TouchSearch& search, const PosedHand& posed,
         plane_of(search.object, posed.flesh.position(pad.middle), reach_m, memory.travel_m, known);
     if (plane == nullptr) continue;
     const double lowest_m = add_pad(search, pad, *plane, posed, parts, memory.rows);
-    if (pad.part || lowest_m <= search.row_reach_m) continue;
+    if (pad.part) continue;
+    known.same_m = std::max(kSamePlane_m, kSamePlaneOfGap * lowest_m);
+    if (lowest_m <= search.row_reach_m) continue;
     known.clearance_m =
         std::max(known.clearance_m, reach_m + kUnseen * (lowest_m - search.row_reach_m));
     known.free_m = known.clearance_m + memory.travel_m;

@@ -39,6 +39,7 @@ struct PadMemory {
   SurfaceHint hint;
   std::optional<PadPlane> plane;
   Vec3 middle = Vec3::Zero();  ///< where it was looked for last; object frame
+  double same_m = 0.0;         ///< the plane serves within this of there
   double clearance_m = 0.0;    ///< there; more where its skin faces away
   double free_m = 0.0;         ///< what was left of that when last seen, plus `travel_m` then
 };
