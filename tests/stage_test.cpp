@@ -267,6 +267,9 @@ INSTANTIATE_TEST_SUITE_P(Objects, StagePress,
 struct Stroked {
   const char* object;
   Vec3 eye_offset;  ///< from the palm
+  friend std::ostream& operator<<(std::ostream& out, const Stroked& stroked) {
+    return out << stroked.object;
+  }
 };
 
 class StageStroke : public StageTest, public testing::WithParamInterface<Stroked> {
