@@ -38,14 +38,13 @@ struct TestSurface {
   std::shared_ptr<const Surface> surface;
   bool exact = false;
 };
-constexpr int kSurfaces = 5;
 
-TestSurface random_surface(int kind, test::Random& random) {
+TestSurface random_surface(test::Random& random) {
   const auto size = static_cast<float>(random.uniform(0.03, 0.3));
   const auto mesh = [](const std::string& name, const TriangleSoup& soup) {
     return TestSurface{name, MeshSurface::build(soup, name).value()};
   };
-  switch (kind) {
+  switch (random.below(5)) {
     case 0:
       return {"ball", std::make_shared<SphereSurface>(random.uniform(0.03, 0.4)), true};
     case 1:
@@ -74,20 +73,16 @@ HandPose random_hand(test::Random& random) {
   return hand;
 }
 
-/// Frames in which no push has yet been deeper than the method is made for, and those in which the
-/// moved hand was the same, which it has to be without exception on exact surfaces. A hand that is
-/// pushed through a ball past its middle balances on the far side, and there rounding grows.
+/// Frames on meshes, and those in which the moved hand was the same.
 struct Tally {
-  int exact = 0;
   int on_meshes = 0;
   int same_on_meshes = 0;
 };
-constexpr double kDeepest_m = 0.08;
 
 /// One hand that wanders through one object, three times over: as it is, in the mirror, and moved
-/// together with the object. It strokes the surface, or goes anywhere through the object.
-void expect_properties(int kind, bool strokes, test::Random& random, Tally& tally) {
-  const TestSurface surface = random_surface(kind, random);
+/// together with the object.
+void expect_properties(test::Random& random, Tally& tally) {
+  const TestSurface surface = random_surface(random);
   const double scale = random.uniform(0.7, 1.4);
   const Placement placement{{random.point({-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}), random.rotation()},
                             scale};
@@ -98,26 +93,19 @@ void expect_properties(int kind, bool strokes, test::Random& random, Tally& tall
   const HandPose hand = random_hand(random);
   const Quat turn = random.rotation();
   const Vec3 roll = random.direction();
-  const double reach_m = strokes ? random.uniform(0.005, 0.05) : random.uniform(0.02, 0.2);
-  Vec3 middle = placement.pose.position;
-  SurfaceHint hint;
-  if (strokes) {
-    const auto nearest = here.closest_point(middle + random.direction(), 5.0, hint);
-    middle = nearest->point + reach_m * nearest->normal;
-  }
+  const double reach_m = random.uniform(0.02, 0.2);
   const double speed = random.uniform(0.01, 0.2);
   HandCorrector corrector;
   HandCorrector again;
   HandCorrector moved_along;
   HandCorrector other_side;
   std::int64_t time_ns = 0;
-  bool deep = false;
   for (int i = 0; i < kFramesPerTrial; ++i) {
     time_ns += 5'000'000 + random.below(15'000'000);
     const Vec3 palm(reach_m * std::sin(speed * i), reach_m * std::cos(1.3 * speed * i),
                     reach_m * std::sin(0.7 * speed * i));
     const Quat rolled(Eigen::AngleAxisd(0.3 * std::sin(0.4 * speed * i), roll));
-    const HandPose tracked = test::placed_hand(hand, middle + palm, rolled * turn);
+    const HandPose tracked = test::placed_hand(hand, placement.pose.position + palm, rolled * turn);
     const CorrectedHand& corrected = corrector.update(tracked, here, time_ns);
     const HandPose drawn = corrected.pose;
     SCOPED_TRACE(testing::Message() << surface.name << ", frame " << i);
@@ -129,15 +117,11 @@ void expect_properties(int kind, bool strokes, test::Random& random, Tally& tall
     ASSERT_TRUE(test::same_bits(drawn, again.update(tracked, here, time_ns).pose));
     const HandPose moved_drawn = moved_along.update(moved(tracked, motion), there, time_ns).pose;
     const double moved_differs_m = largest_motion(moved(drawn, motion), moved_drawn);
-    const Vec3 shift = drawn[Joint::palm].position - tracked[Joint::palm].position;
-    deep = deep || shift.norm() > kDeepest_m;
-    if (deep) continue;
     if (!surface.exact) {
       ++tally.on_meshes;
       if (moved_differs_m < kSame_m) ++tally.same_on_meshes;
       continue;
     }
-    ++tally.exact;
     ASSERT_LT(moved_differs_m, kSame_m);
     const HandPose mirror_drawn = other_side.update(mirrored(tracked), in_mirror, time_ns).pose;
     ASSERT_LT(largest_motion(drawn, mirrored(mirror_drawn)), kSame_m);
@@ -156,11 +140,9 @@ TEST(SettleProperties, HoldForRandomHandsSurfacesAndMotions) {
   const int trials = frames_wanted() / kFramesPerTrial;
   for (int trial = 0; trial < trials; ++trial) {
     SCOPED_TRACE(testing::Message() << "trial " << trial);
-    expect_properties(trial % kSurfaces, trial / kSurfaces % 2 == 0, random, tally);
+    expect_properties(random, tally);
     if (HasFatalFailure()) return;
   }
-  EXPECT_GT(tally.exact, 0.1 * trials * kFramesPerTrial);
-  EXPECT_GT(tally.on_meshes, 0.1 * trials * kFramesPerTrial);
   EXPECT_GT(tally.same_on_meshes, 0.95 * tally.on_meshes);
 }
 
