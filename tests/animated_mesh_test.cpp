@@ -4,9 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -15,76 +12,14 @@
 #include "nade/io/mesh_file.h"
 #include "nade/io/object_file.h"
 #include "nade/mesh.h"
+#include "support/gltf_file.h"
 
 namespace nade {
 namespace {
 
 using Json = nlohmann::json;
+using test::GltfFile;
 using Vec3f = Eigen::Vector3f;
-
-/// A .gltf file with one triangle, moved as a test says.
-class MovingFile {
- public:
-  explicit MovingFile(const std::string& name)
-      : path_((std::filesystem::path(testing::TempDir()) / (name + ".gltf")).string()) {
-    gltf = Json::parse(R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
-      "nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],
-      "accessors":[],"bufferViews":[],
-      "animations":[{"name":"sway","channels":[],"samplers":[]}]})");
-    add({0, 0, 0, 1, 0, 0, 0, 0, -1}, "VEC3");
-    add_bytes(std::vector<std::uint16_t>{0, 1, 2}, 5123, "SCALAR", 3);
-  }
-
-  int add(const std::vector<float>& numbers, const std::string& type) {
-    const std::size_t width = type == "SCALAR" ? 1 : type == "VEC3" ? 3 : type == "VEC4" ? 4 : 16;
-    return add_bytes(numbers, 5126, type, numbers.size() / width);
-  }
-
-  template <class Number>
-  int add_bytes(const std::vector<Number>& numbers, int component, const std::string& type,
-                std::size_t count) {
-    const std::size_t start = bytes_.size();
-    const std::size_t size = numbers.size() * sizeof(Number);
-    bytes_.resize(start + (size + 3) / 4 * 4);
-    std::memcpy(bytes_.data() + start, numbers.data(), size);
-    gltf["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", start}, {"byteLength", size}});
-    gltf["accessors"].push_back({{"bufferView", gltf["bufferViews"].size() - 1},
-                                 {"componentType", component},
-                                 {"type", type},
-                                 {"count", count}});
-    return static_cast<int>(gltf["accessors"].size()) - 1;
-  }
-
-  /// Moves a property of a node.
-  void animate(int node, const std::string& property, const std::string& interpolation,
-               const std::vector<float>& times, const std::vector<float>& values) {
-    const std::string type = property == "rotation"  ? "VEC4"
-                             : property == "weights" ? "SCALAR"
-                                                     : "VEC3";
-    Json& animation = gltf["animations"][0];
-    animation["samplers"].push_back({{"input", add(times, "SCALAR")},
-                                     {"output", add(values, type)},
-                                     {"interpolation", interpolation}});
-    animation["channels"].push_back({{"sampler", animation["samplers"].size() - 1},
-                                     {"target", {{"node", node}, {"path", property}}}});
-  }
-
-  /// Writes it; its path.
-  const std::string& write() {
-    const std::string bin = path_ + ".bin";
-    std::ofstream(bin, std::ios::binary) << bytes_;
-    gltf["buffers"] = {
-        {{"byteLength", bytes_.size()}, {"uri", std::filesystem::path(bin).filename().string()}}};
-    std::ofstream(path_) << gltf.dump();
-    return path_;
-  }
-
-  Json gltf;
-
- private:
-  std::string path_;
-  std::string bytes_;
-};
 
 std::vector<Vec3f> sampled(AnimatedMesh& mesh, double time_s) {
   std::vector<Vec3f> vertices(mesh.vertex_count());
@@ -97,7 +32,7 @@ void expect_at(const Vec3f& found, const Vec3f& expected) {
 }
 
 TEST(AnimatedMesh, NodesMoveStraightFromKeyToKeyAndRoundAgain) {
-  MovingFile file("nade_sway");
+  GltfFile file("nade_sway");
   file.animate(0, "translation", "LINEAR", {0, 1, 2}, {0, 0, 0, 0, 2, 0, 0, 0, 0});
   auto mesh = AnimatedMesh::load(file.write());
   ASSERT_TRUE(mesh.ok()) << mesh.error().message;
@@ -109,14 +44,14 @@ TEST(AnimatedMesh, NodesMoveStraightFromKeyToKeyAndRoundAgain) {
 }
 
 TEST(AnimatedMesh, StepsAndSplines) {
-  MovingFile steps("nade_steps");
+  GltfFile steps("nade_steps");
   steps.animate(0, "scale", "STEP", {0, 1, 2}, {1, 1, 1, 3, 3, 3, 1, 1, 1});
   auto stepping = AnimatedMesh::load(steps.write());
   ASSERT_TRUE(stepping.ok()) << stepping.error().message;
   expect_at(sampled(*stepping, 0.99)[1], {1.0F, 0.0F, 0.0F});
   expect_at(sampled(*stepping, 1.01)[1], {3.0F, 0.0F, 0.0F});
   // In tangent, value, out tangent: y = t^2 between the keys.
-  MovingFile spline("nade_spline");
+  GltfFile spline("nade_spline");
   spline.animate(0, "translation", "CUBICSPLINE", {0, 1},
                  {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 0, 1, 0, 0, 0, 0});
   auto bending = AnimatedMesh::load(spline.write());
@@ -125,7 +60,7 @@ TEST(AnimatedMesh, StepsAndSplines) {
 }
 
 TEST(AnimatedMesh, TurnsTheShortWay) {
-  MovingFile file("nade_turn");
+  GltfFile file("nade_turn");
   const float half = std::sqrt(0.5F);
   file.animate(0, "rotation", "LINEAR", {0, 1}, {0, 0, 0, 1, 0, -half, 0, -half});
   auto mesh = AnimatedMesh::load(file.write());
@@ -134,7 +69,7 @@ TEST(AnimatedMesh, TurnsTheShortWay) {
 }
 
 TEST(AnimatedMesh, MorphTargets) {
-  MovingFile file("nade_morph");
+  GltfFile file("nade_morph");
   Json& primitive = file.gltf["meshes"][0]["primitives"][0];
   primitive["targets"] = {{{"POSITION", file.add({0, 1, 0, 0, 1, 0, 0, 1, 0}, "VEC3")}},
                           {{"POSITION", file.add({0, 0, 0, 5, 0, 0, 0, 0, 0}, "VEC3")}}};
@@ -146,7 +81,7 @@ TEST(AnimatedMesh, MorphTargets) {
 }
 
 TEST(AnimatedMesh, BonesCarryTheSkin) {
-  MovingFile file("nade_bones");
+  GltfFile file("nade_bones");
   file.gltf["nodes"] = Json::parse(
       R"([{"mesh":0,"skin":0,"translation":[9,9,9]},{"children":[2]},{"translation":[1,0,0]}])");
   file.gltf["scenes"][0]["nodes"] = {0, 1};
@@ -170,13 +105,13 @@ TEST(AnimatedMesh, BonesCarryTheSkin) {
 }
 
 TEST(AnimatedMesh, SaysWhatCannotBePlayed) {
-  MovingFile still("nade_still");
+  GltfFile still("nade_still");
   still.gltf.erase("animations");
   const auto none = AnimatedMesh::load(still.write());
   ASSERT_FALSE(none.ok());
   EXPECT_NE(none.error().message.find("expected an animation, found none"), std::string::npos);
 
-  MovingFile file("nade_names");
+  GltfFile file("nade_names");
   file.animate(0, "translation", "LINEAR", {0, 1}, {0, 0, 0, 0, 1, 0});
   const auto unknown = AnimatedMesh::load(file.write(), "walk");
   ASSERT_FALSE(unknown.ok());
@@ -184,7 +119,7 @@ TEST(AnimatedMesh, SaysWhatCannotBePlayed) {
             std::string::npos);
   EXPECT_TRUE(AnimatedMesh::load(file.write(), "sway").ok());
 
-  MovingFile short_of("nade_short");
+  GltfFile short_of("nade_short");
   short_of.animate(0, "translation", "LINEAR", {0, 1}, {0, 0, 0});
   const auto few = AnimatedMesh::load(short_of.write());
   ASSERT_FALSE(few.ok());
@@ -193,7 +128,7 @@ TEST(AnimatedMesh, SaysWhatCannotBePlayed) {
 }
 
 TEST(AnimatedMesh, AnObjectIsAliveWhereItsNameSaysSo) {
-  MovingFile file("nade_alive");
+  GltfFile file("nade_alive");
   file.animate(0, "translation", "LINEAR", {0, 1}, {0, 0, 0, 0, 1, 0});
   const std::string path = file.write();
   const auto still = load_object(path);

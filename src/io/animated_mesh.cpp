@@ -10,16 +10,9 @@
 #include "gltf_accessor.h"
 #include "gltf_animation.h"
 #include "gltf_rig.h"
-#include "nade/assert.h"
-
-// Based on: The Khronos Group. glTF 2.0 Specification. 2021 (skins, morph targets).
 
 namespace nade {
 namespace {
-
-using gltf::Matrix34f;
-using Vec3f = Eigen::Vector3f;
-using Matrix = Eigen::Matrix4d;
 
 Error bad_file(const std::string& path, std::string_view problem) {
   return {ErrorCode::bad_format, fmt::format("{}: {}", path, problem)};
@@ -42,8 +35,6 @@ Result<std::size_t> find_animation(const tinygltf::Model& model, const std::stri
 struct AnimatedMesh::Impl {
   gltf::Rig rig;
   std::vector<gltf::Track> tracks;
-  std::vector<Matrix> worlds;  ///< room: of the nodes
-  std::size_t vertex_count = 0;
   double duration_s = 0.0;
 
   void move_nodes(double time_s) noexcept {
@@ -63,48 +54,6 @@ struct AnimatedMesh::Impl {
           track.at(time_s, node.weights);
           break;
       }
-    }
-    for (const std::size_t i : rig.order) {
-      const gltf::Node& node = rig.nodes[i];
-      worlds[i] = node.local();
-      if (node.parent) worlds[i] = worlds[*node.parent] * worlds[i];
-    }
-    for (gltf::Skin& skin : rig.skins) {
-      for (std::size_t k = 0; k < skin.joints.size(); ++k) {
-        const Matrix bone = worlds[skin.joints[k]] * skin.inverse_binds[k];
-        skin.bones[k] = bone.topRows<3>().cast<float>();
-      }
-    }
-  }
-
-  static void morph(const gltf::Piece& piece, const gltf::Node& node,
-                    std::span<Vec3f> vertices) noexcept {
-    std::copy(piece.positions.begin(), piece.positions.end(), vertices.begin());
-    for (std::size_t t = 0; t < piece.targets.size(); ++t) {
-      const auto weight = static_cast<float>(node.weights[t]);
-      if (weight == 0.0F || piece.targets[t].empty()) continue;
-      for (std::size_t i = 0; i < vertices.size(); ++i) {
-        vertices[i] += weight * piece.targets[t][i];
-      }
-    }
-  }
-
-  void carry(const gltf::Piece& piece, std::span<Vec3f> vertices) const noexcept {
-    if (!piece.skin) {
-      const Matrix34f world = worlds[piece.node].topRows<3>().cast<float>();
-      for (Vec3f& vertex : vertices) {
-        vertex = Vec3f(world.leftCols<3>() * vertex + world.col(3));
-      }
-      return;
-    }
-    const std::vector<Matrix34f>& bones = rig.skins[*piece.skin].bones;
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-      const gltf::Carriers& carriers = piece.carriers[i];
-      Matrix34f blend = carriers.weight[0] * bones[carriers.bone[0]];
-      for (std::size_t k = 1; k < 4; ++k) {
-        if (carriers.weight[k] != 0.0F) blend += carriers.weight[k] * bones[carriers.bone[k]];
-      }
-      vertices[i] = Vec3f(blend.leftCols<3>() * vertices[i] + blend.col(3));
     }
   }
 };
@@ -136,26 +85,17 @@ Result<AnimatedMesh> AnimatedMesh::load(const std::string& path, std::string_vie
   }
   impl->rig = std::move(*rig);
   impl->tracks = std::move(*tracks);
-  impl->worlds.resize(impl->rig.nodes.size(), Matrix::Identity());
-  for (const gltf::Piece& piece : impl->rig.pieces) impl->vertex_count += piece.positions.size();
   return AnimatedMesh(std::move(impl));
 }
 
-std::size_t AnimatedMesh::vertex_count() const { return impl_->vertex_count; }
+std::size_t AnimatedMesh::vertex_count() const { return impl_->rig.vertex_count(); }
 double AnimatedMesh::duration_s() const { return impl_->duration_s; }
 
-void AnimatedMesh::sample(double time_s, std::span<Vec3f> vertices) noexcept {
-  NADE_ASSERT(vertices.size() == impl_->vertex_count);
+void AnimatedMesh::sample(double time_s, std::span<Eigen::Vector3f> vertices) noexcept {
   double time = std::isfinite(time_s) ? std::fmod(time_s, impl_->duration_s) : 0.0;
   if (time < 0.0) time += impl_->duration_s;
   impl_->move_nodes(time);
-  std::size_t first = 0;
-  for (const gltf::Piece& piece : impl_->rig.pieces) {
-    const std::span<Vec3f> part = vertices.subspan(first, piece.positions.size());
-    Impl::morph(piece, impl_->rig.nodes[piece.node], part);
-    impl_->carry(piece, part);
-    first += part.size();
-  }
+  gltf::pose_vertices(impl_->rig, vertices);
 }
 
 }  // namespace nade

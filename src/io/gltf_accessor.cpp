@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 #include <exception>
 #include <filesystem>
@@ -14,6 +15,9 @@
 
 namespace nade::gltf {
 namespace {
+
+/// Elements that an accessor may have without a byte of the file behind each.
+constexpr std::size_t kMostZeros = 10'000'000;
 
 Result<std::string> read_bytes(const std::string& path) {
   std::error_code ignored;
@@ -40,13 +44,13 @@ bool skip_image(tinygltf::Image*, const int, std::string*, std::string*, int, in
   return true;
 }
 
-/// Where an accessor's elements lie.
+/// Where elements lie.
 struct ElementView {
   std::span<const unsigned char> bytes;  ///< from the first element's start
   std::size_t count;
   std::size_t stride;
   int component_type;
-  bool normalized;
+  bool normalized = false;
 };
 
 Error bad_accessor(const AccessorRef& ref, std::string_view expected) {
@@ -60,36 +64,91 @@ const T* find(const std::vector<T>& all, int index) {
   return known ? &all[static_cast<std::size_t>(index)] : nullptr;
 }
 
-Result<ElementView> view_elements(const AccessorRef& ref, int components) {
-  const auto* accessor = find(ref.model.accessors, ref.index);
-  if (accessor == nullptr) return bad_accessor(ref, "no such accessor");
-  if (accessor->sparse.isSparse) {
-    return bad_accessor(ref, "is sparse, which is not read for hands");
-  }
-  if (tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor->type)) != components) {
-    return bad_accessor(ref, fmt::format("expected elements of {} numbers", components));
-  }
-  const auto* view = find(ref.model.bufferViews, accessor->bufferView);
+std::size_t component_size(int component_type) {
+  const int size = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(component_type));
+  return size > 0 ? static_cast<std::size_t>(size) : 0;
+}
+
+/// What a file says about elements in one of its buffers.
+struct Claim {
+  int buffer_view;
+  std::size_t byte_offset;
+  std::size_t count;
+  std::size_t element_size;  ///< bytes
+  std::size_t stride;        ///< bytes
+  int component_type;
+};
+
+/// The elements, where they all lie in the buffer.
+Result<ElementView> check_claim(const AccessorRef& ref, const Claim& claim) {
+  const auto* view = find(ref.model.bufferViews, claim.buffer_view);
   const auto* buffer = view != nullptr ? find(ref.model.buffers, view->buffer) : nullptr;
-  const int stride = view != nullptr ? accessor->ByteStride(*view) : -1;
-  if (buffer == nullptr || stride <= 0) return bad_accessor(ref, "has no data");
-  const auto element_size = static_cast<std::size_t>(
-      components *
-      tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor->componentType)));
+  if (buffer == nullptr || claim.element_size == 0) return bad_accessor(ref, "has no data");
   const std::size_t size = buffer->data.size();
   // Every step is compared before it is subtracted, so that no made-up number can wrap around.
   const bool starts_inside = view->byteOffset <= size &&
                              view->byteLength <= size - view->byteOffset &&
-                             accessor->byteOffset <= view->byteLength;
+                             claim.byte_offset <= view->byteLength;
   if (!starts_inside) return bad_accessor(ref, "reaches beyond the end of its buffer");
-  const std::size_t room = view->byteLength - accessor->byteOffset;
-  const auto step = static_cast<std::size_t>(stride);
-  const bool fits = accessor->count == 0 || (element_size <= room && element_size <= step &&
-                                             accessor->count - 1 <= (room - element_size) / step);
+  const std::size_t room = view->byteLength - claim.byte_offset;
+  const bool fits =
+      claim.count == 0 || (claim.element_size <= room && claim.element_size <= claim.stride &&
+                           claim.count - 1 <= (room - claim.element_size) / claim.stride);
   if (!fits) return bad_accessor(ref, "reaches beyond the end of its buffer");
   const std::span<const unsigned char> bytes(buffer->data);
-  return ElementView{bytes.subspan(view->byteOffset + accessor->byteOffset, room), accessor->count,
-                     step, accessor->componentType, accessor->normalized};
+  return ElementView{bytes.subspan(view->byteOffset + claim.byte_offset, room), claim.count,
+                     claim.stride, claim.component_type};
+}
+
+Result<const tinygltf::Accessor*> find_accessor(const AccessorRef& ref, int components) {
+  const auto* accessor = find(ref.model.accessors, ref.index);
+  if (accessor == nullptr) return bad_accessor(ref, "no such accessor");
+  if (tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor->type)) != components) {
+    return bad_accessor(ref, fmt::format("expected elements of {} numbers", components));
+  }
+  return accessor;
+}
+
+Result<ElementView> dense_elements(const AccessorRef& ref, const tinygltf::Accessor& accessor,
+                                   int components) {
+  const auto* view = find(ref.model.bufferViews, accessor.bufferView);
+  const int stride = view != nullptr ? accessor.ByteStride(*view) : -1;
+  if (stride <= 0) return bad_accessor(ref, "has no data");
+  const Claim claim{accessor.bufferView,
+                    accessor.byteOffset,
+                    accessor.count,
+                    static_cast<std::size_t>(components) * component_size(accessor.componentType),
+                    static_cast<std::size_t>(stride),
+                    accessor.componentType};
+  Result<ElementView> elements = check_claim(ref, claim);
+  if (elements) elements->normalized = accessor.normalized;
+  return elements;
+}
+
+/// What a sparse accessor puts in the place of some elements: which, and what.
+struct Replacements {
+  ElementView places;
+  ElementView elements;
+};
+
+Result<Replacements> replacements(const AccessorRef& ref, const tinygltf::Accessor& accessor,
+                                  int components) {
+  const auto& sparse = accessor.sparse;
+  const auto packed = [&](const auto& from, int component_type, int width) {
+    const std::size_t size = static_cast<std::size_t>(width) * component_size(component_type);
+    return Claim{from.bufferView,
+                 static_cast<std::size_t>(std::max(from.byteOffset, 0)),
+                 static_cast<std::size_t>(std::max(sparse.count, 0)),
+                 size,
+                 size,
+                 component_type};
+  };
+  const auto places = check_claim(ref, packed(sparse.indices, sparse.indices.componentType, 1));
+  if (!places) return places.error();
+  auto elements = check_claim(ref, packed(sparse.values, accessor.componentType, components));
+  if (!elements) return elements.error();
+  elements->normalized = accessor.normalized;
+  return Replacements{*places, *elements};
 }
 
 template <class T>
@@ -99,8 +158,8 @@ T load(const unsigned char* bytes) {
   return value;
 }
 
-std::optional<std::uint32_t> load_integer(const unsigned char* bytes, int component_type) {
-  switch (component_type) {
+std::optional<std::uint32_t> load_whole(const unsigned char* bytes, const ElementView& view) {
+  switch (view.component_type) {
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
       return *bytes;
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
@@ -112,27 +171,73 @@ std::optional<std::uint32_t> load_integer(const unsigned char* bytes, int compon
   }
 }
 
+/// Whole numbers are taken as they are (KHR_mesh_quantization), or as parts of the greatest.
 std::optional<float> load_float(const unsigned char* bytes, const ElementView& view) {
-  if (view.component_type == TINYGLTF_COMPONENT_TYPE_FLOAT) return load<float>(bytes);
-  const std::optional<std::uint32_t> whole = load_integer(bytes, view.component_type);
-  if (!whole || !view.normalized || view.component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
-    return std::nullopt;
+  const auto part = [&view](auto whole) {
+    using Whole = decltype(whole);
+    const auto number = static_cast<float>(whole);
+    if (!view.normalized) return number;
+    return std::max(number / static_cast<float>(std::numeric_limits<Whole>::max()), -1.0F);
+  };
+  switch (view.component_type) {
+    case TINYGLTF_COMPONENT_TYPE_FLOAT:
+      return load<float>(bytes);
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+      return part(load<std::int8_t>(bytes));
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return part(load<std::uint8_t>(bytes));
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+      return part(load<std::int16_t>(bytes));
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return part(load<std::uint16_t>(bytes));
+    default:
+      return std::nullopt;
   }
-  const bool is_byte = view.component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE;
-  return static_cast<float>(*whole) / (is_byte ? 255.0F : 65535.0F);
 }
 
-/// Runs over all numbers of a view; `take(bytes)` says whether it could use one.
-template <class Take>
-bool for_each_number(const ElementView& view, int components, Take take) {
-  const auto size = static_cast<std::size_t>(
-      tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(view.component_type)));
-  for (std::size_t i = 0; i < view.count; ++i) {
-    for (std::size_t c = 0; c < static_cast<std::size_t>(components); ++c) {
-      if (!take(view.bytes.data() + i * view.stride + c * size)) return false;
+/// Number `c` of element `i`.
+const unsigned char* number_at(const ElementView& view, std::size_t i, std::size_t c) {
+  return view.bytes.data() + i * view.stride + c * component_size(view.component_type);
+}
+
+/// All numbers of an accessor; `load(bytes, view)` has no value for those of a wrong type.
+template <class Number, class Load>
+Result<std::vector<Number>> read_numbers(const AccessorRef& ref, int components, Load load,
+                                         std::string_view expected) {
+  const auto accessor = find_accessor(ref, components);
+  if (!accessor) return accessor.error();
+  const auto width = static_cast<std::size_t>(components);
+  const bool sparse = (*accessor)->sparse.isSparse;
+  std::vector<Number> numbers;
+  if (sparse && (*accessor)->bufferView < 0) {
+    if ((*accessor)->count > kMostZeros) return bad_accessor(ref, "has too many elements");
+    numbers.resize((*accessor)->count * width);
+  } else {
+    const auto view = dense_elements(ref, **accessor, components);
+    if (!view) return view.error();
+    numbers.reserve(view->count * width);
+    for (std::size_t i = 0; i < view->count * width; ++i) {
+      const std::optional<Number> number = load(number_at(*view, i / width, i % width), *view);
+      if (!number) return bad_accessor(ref, expected);
+      numbers.push_back(*number);
     }
   }
-  return true;
+  if (!sparse) return numbers;
+  const auto changed = replacements(ref, **accessor, components);
+  if (!changed) return changed.error();
+  const auto& [places, elements] = *changed;
+  for (std::size_t i = 0; i < places.count; ++i) {
+    const auto place = load_whole(number_at(places, i, 0), places);
+    if (!place || *place >= (*accessor)->count) {
+      return bad_accessor(ref, "replaces elements that it does not have");
+    }
+    for (std::size_t c = 0; c < width; ++c) {
+      const std::optional<Number> number = load(number_at(elements, i, c), elements);
+      if (!number) return bad_accessor(ref, expected);
+      numbers[*place * width + c] = *number;
+    }
+  }
+  return numbers;
 }
 
 }  // namespace
@@ -171,31 +276,11 @@ Result<tinygltf::Model> read_model(const std::string& path) {
 }
 
 Result<std::vector<float>> read_floats(const AccessorRef& ref, int components) {
-  const Result<ElementView> view = view_elements(ref, components);
-  if (!view) return view.error();
-  std::vector<float> numbers;
-  numbers.reserve(view->count * static_cast<std::size_t>(components));
-  const bool all = for_each_number(*view, components, [&](const unsigned char* bytes) {
-    const std::optional<float> number = load_float(bytes, *view);
-    if (number) numbers.push_back(*number);
-    return number.has_value();
-  });
-  if (!all) return bad_accessor(ref, "expected floats");
-  return numbers;
+  return read_numbers<float>(ref, components, load_float, "expected floats");
 }
 
 Result<std::vector<std::uint32_t>> read_integers(const AccessorRef& ref, int components) {
-  const Result<ElementView> view = view_elements(ref, components);
-  if (!view) return view.error();
-  std::vector<std::uint32_t> numbers;
-  numbers.reserve(view->count * static_cast<std::size_t>(components));
-  const bool all = for_each_number(*view, components, [&](const unsigned char* bytes) {
-    const std::optional<std::uint32_t> number = load_integer(bytes, view->component_type);
-    if (number) numbers.push_back(*number);
-    return number.has_value();
-  });
-  if (!all) return bad_accessor(ref, "expected unsigned integers");
-  return numbers;
+  return read_numbers<std::uint32_t>(ref, components, load_whole, "expected unsigned integers");
 }
 
 }  // namespace nade::gltf

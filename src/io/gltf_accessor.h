@@ -21,8 +21,8 @@ struct AccessorRef {
   int index;         ///< of the accessor, as the file has it
 };
 
-/// All numbers of an accessor, `components` to an element (3 for VEC3, 16 for MAT4); integers are
-/// made fractions where the accessor says so. Checked against the buffer's real size.
+/// All numbers of an accessor, `components` to an element (3 for VEC3, 16 for MAT4); integers
+/// become fractions where the accessor says so. Checked against the buffer's real size.
 [[nodiscard]] Result<std::vector<float>> read_floats(const AccessorRef& ref, int components);
 
 /// As `read_floats`, for unsigned integers.

@@ -1,11 +1,8 @@
 #include "gltf_rig.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <map>
-#include <string_view>
-#include <utility>
+
+#include "nade/assert.h"
 
 // Based on: The Khronos Group. glTF 2.0 Specification. 2021 (skins, morph targets).
 
@@ -15,237 +12,67 @@ namespace {
 using Vec3f = Eigen::Vector3f;
 using Matrix = Eigen::Matrix4d;
 
-Error bad_file(const std::string& path, std::string_view problem) {
-  return {ErrorCode::bad_format, fmt::format("{}: {}", path, problem)};
+void place_nodes(Rig& rig) noexcept {
+  for (const std::size_t i : rig.order) {
+    const Node& node = rig.nodes[i];
+    rig.worlds[i] = node.local();
+    if (node.parent) rig.worlds[i] = rig.worlds[*node.parent] * rig.worlds[i];
+  }
+  for (Skin& skin : rig.skins) {
+    for (std::size_t k = 0; k < skin.joints.size(); ++k) {
+      const Matrix bone = rig.worlds[skin.joints[k]] * skin.inverse_binds[k];
+      skin.bones[k] = bone.topRows<3>().cast<float>();
+    }
+  }
 }
 
-/// Numbers of a file where it gives all of `Size`, else what is there already.
-template <class Vector>
-void take(const std::vector<double>& from, Vector& to) {
-  if (from.size() != static_cast<std::size_t>(to.size())) return;
-  for (std::size_t i = 0; i < from.size(); ++i) to[static_cast<Eigen::Index>(i)] = from[i];
+void morph(const Piece& piece, const Node& node, std::span<Vec3f> vertices) noexcept {
+  std::copy(piece.positions.begin(), piece.positions.end(), vertices.begin());
+  for (std::size_t t = 0; t < piece.targets.size(); ++t) {
+    const auto weight = static_cast<float>(node.weights[t]);
+    if (weight == 0.0F || piece.targets[t].empty()) continue;
+    for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i] += weight * piece.targets[t][i];
+  }
 }
 
-Node node_of(const tinygltf::Node& from) {
-  Node node;
-  take(from.translation, node.translation);
-  take(from.rotation, node.rotation.coeffs());
-  take(from.scale, node.scale);
-  if (from.matrix.size() == 16) node.fixed = Eigen::Map<const Matrix>(from.matrix.data());
-  return node;
+void carry(const Rig& rig, const Piece& piece, std::span<Vec3f> vertices) noexcept {
+  if (!piece.skin) {
+    const Matrix& world = rig.worlds[piece.node];
+    for (Vec3f& vertex : vertices) {
+      const Vec3 moved = world.topLeftCorner<3, 3>() * vertex.cast<double>();
+      vertex = (moved + world.topRightCorner<3, 1>()).cast<float>();
+    }
+    return;
+  }
+  const std::vector<Matrix34f>& bones = rig.skins[*piece.skin].bones;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const Carriers& carriers = piece.carriers[i];
+    Matrix34f blend = carriers.weight[0] * bones[carriers.bone[0]];
+    for (std::size_t k = 1; k < 4; ++k) {
+      if (carriers.weight[k] != 0.0F) blend += carriers.weight[k] * bones[carriers.bone[k]];
+    }
+    vertices[i] = Vec3f(blend.leftCols<3>() * vertices[i] + blend.col(3));
+  }
 }
-
-std::vector<Vec3f> vectors_of(const std::vector<float>& numbers) {
-  std::vector<Vec3f> vectors;
-  vectors.reserve(numbers.size() / 3);
-  for (std::size_t i = 0; i + 2 < numbers.size(); i += 3) {
-    vectors.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
-  }
-  return vectors;
-}
-
-int attribute(const std::map<std::string, int>& attributes, const char* name) {
-  const auto found = attributes.find(name);
-  return found == attributes.end() ? -1 : found->second;
-}
-
-/// Reads a file into nodes, skins and rig_.pieces.
-class Reader {
- public:
-  Reader(const tinygltf::Model& model, const std::string& path) : model_(model), path_(path) {}
-
-  [[nodiscard]] Result<Rig> read() {
-    Status status = read_nodes();
-    if (status.ok()) status = read_skins();
-    if (status.ok()) status = read_pieces();
-    if (!status) return status.error();
-    return std::move(rig_);
-  }
-
- private:
-  [[nodiscard]] Status read_nodes() {
-    for (const tinygltf::Node& node : model_.nodes) rig_.nodes.push_back(node_of(node));
-    for (std::size_t i = 0; i < rig_.nodes.size(); ++i) {
-      for (const int child : model_.nodes[i].children) {
-        const auto index = static_cast<std::size_t>(child);
-        if (child < 0 || index >= rig_.nodes.size()) {
-          return bad_file(path_, fmt::format("node {}: no such child {}", i, child));
-        }
-        if (rig_.nodes[index].parent) {
-          return bad_file(path_, fmt::format("node {}: expected one parent, found two", index));
-        }
-        rig_.nodes[index].parent = i;
-      }
-    }
-    for (std::size_t i = 0; i < rig_.nodes.size(); ++i) {
-      if (!rig_.nodes[i].parent) rig_.order.push_back(i);
-    }
-    for (std::size_t i = 0; i < rig_.order.size(); ++i) {
-      for (const int child : model_.nodes[rig_.order[i]].children) {
-        rig_.order.push_back(static_cast<std::size_t>(child));
-      }
-    }
-    if (rig_.order.size() == rig_.nodes.size()) return ok_status();
-    return bad_file(path_, "expected a tree of nodes, found some in a circle");
-  }
-
-  [[nodiscard]] Status read_skins() {
-    for (std::size_t i = 0; i < model_.skins.size(); ++i) {
-      const tinygltf::Skin& from = model_.skins[i];
-      Skin skin;
-      for (const int joint : from.joints) {
-        if (joint < 0 || static_cast<std::size_t>(joint) >= rig_.nodes.size()) {
-          return bad_file(path_, fmt::format("skin {}: no such joint {}", i, joint));
-        }
-        skin.joints.push_back(static_cast<std::size_t>(joint));
-      }
-      skin.inverse_binds.assign(skin.joints.size(), Matrix::Identity());
-      skin.bones.resize(skin.joints.size());
-      if (from.inverseBindMatrices >= 0) {
-        const auto numbers =
-            read_floats({model_, path_, "inverse bind matrices", from.inverseBindMatrices}, 16);
-        if (!numbers) return numbers.error();
-        if (numbers->size() < 16 * skin.joints.size()) {
-          return bad_file(path_, fmt::format("skin {}: {} inverse bind matrices for {} joints", i,
-                                             numbers->size() / 16, skin.joints.size()));
-        }
-        for (std::size_t k = 0; k < skin.joints.size(); ++k) {
-          const Eigen::Map<const Eigen::Matrix4f> matrix(numbers->data() + 16 * k);
-          skin.inverse_binds[k] = matrix.cast<double>();
-        }
-      }
-      rig_.skins.push_back(std::move(skin));
-    }
-    return ok_status();
-  }
-
-  /// In the order in which the importer behind `load_mesh` goes through a scene.
-  [[nodiscard]] Status read_pieces() {
-    if (model_.scenes.empty()) return bad_file(path_, "has no scene");
-    const auto chosen = static_cast<std::size_t>(std::max(model_.defaultScene, 0));
-    if (chosen >= model_.scenes.size()) {
-      return bad_file(path_, fmt::format("no such scene {}", chosen));
-    }
-    std::vector<int> open(model_.scenes[chosen].nodes.rbegin(), model_.scenes[chosen].nodes.rend());
-    while (!open.empty()) {
-      const int index = open.back();
-      open.pop_back();
-      if (index < 0 || static_cast<std::size_t>(index) >= rig_.nodes.size()) {
-        return bad_file(path_, fmt::format("scene {}: no such node {}", chosen, index));
-      }
-      const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(index)];
-      if (node.mesh >= 0) {
-        const Status status = read_mesh(static_cast<std::size_t>(index));
-        if (!status) return status;
-      }
-      open.insert(open.end(), node.children.rbegin(), node.children.rend());
-      if (rig_.pieces.size() > kMostPieces) return bad_file(path_, "too many meshes to move");
-    }
-    return ok_status();
-  }
-
-  [[nodiscard]] Status read_mesh(std::size_t node) {
-    const auto index = static_cast<std::size_t>(model_.nodes[node].mesh);
-    if (index >= model_.meshes.size()) {
-      return bad_file(path_, fmt::format("node {}: no such mesh {}", node, index));
-    }
-    const tinygltf::Mesh& mesh = model_.meshes[index];
-    for (const tinygltf::Primitive& primitive : mesh.primitives) {
-      Piece piece;
-      piece.node = node;
-      const Status status = read_primitive(primitive, piece);
-      if (!status) return status;
-      std::vector<double>& weights = rig_.nodes[node].weights;
-      weights.resize(std::max(weights.size(), piece.targets.size()), 0.0);
-      rig_.pieces.push_back(std::move(piece));
-    }
-    const std::vector<double>& own = model_.nodes[node].weights;
-    const std::vector<double>& given = own.empty() ? mesh.weights : own;
-    std::vector<double>& weights = rig_.nodes[node].weights;
-    std::copy_n(given.begin(), std::min(given.size(), weights.size()), weights.begin());
-    return ok_status();
-  }
-
-  [[nodiscard]] Status read_primitive(const tinygltf::Primitive& primitive, Piece& piece) {
-    const auto position = attribute(primitive.attributes, "POSITION");
-    if (position < 0) return ok_status();
-    const auto positions = read_floats({model_, path_, "POSITION", position}, 3);
-    if (!positions) return positions.error();
-    piece.positions = vectors_of(*positions);
-    for (const auto& target : primitive.targets) {
-      piece.targets.emplace_back();
-      const int moved = attribute(target, "POSITION");
-      if (moved < 0) continue;
-      const auto offsets = read_floats({model_, path_, "morph target's POSITION", moved}, 3);
-      if (!offsets) return offsets.error();
-      piece.targets.back() = vectors_of(*offsets);
-      if (piece.targets.back().size() != piece.positions.size()) {
-        return bad_file(path_, fmt::format("morph target {}: expected {} vertices, found {}",
-                                           piece.targets.size() - 1, piece.positions.size(),
-                                           piece.targets.back().size()));
-      }
-    }
-    if (model_.nodes[piece.node].skin < 0) return ok_status();
-    const auto skin = static_cast<std::size_t>(model_.nodes[piece.node].skin);
-    if (skin >= rig_.skins.size()) {
-      return bad_file(path_, fmt::format("node {}: no such skin {}", piece.node, skin));
-    }
-    piece.skin = skin;
-    return read_carriers(primitive, piece);
-  }
-
-  [[nodiscard]] Status read_carriers(const tinygltf::Primitive& primitive, Piece& piece) const {
-    const auto joints =
-        read_integers({model_, path_, "JOINTS_0", attribute(primitive.attributes, "JOINTS_0")}, 4);
-    if (!joints) return joints.error();
-    const auto weights =
-        read_floats({model_, path_, "WEIGHTS_0", attribute(primitive.attributes, "WEIGHTS_0")}, 4);
-    if (!weights) return weights.error();
-    const std::size_t count = piece.positions.size();
-    if (joints->size() != 4 * count || weights->size() != 4 * count) {
-      return bad_file(path_, fmt::format("JOINTS_0 and WEIGHTS_0: expected {} elements, one for "
-                                         "each vertex",
-                                         count));
-    }
-    const std::size_t bones = std::min<std::size_t>(rig_.skins[*piece.skin].joints.size(), 65535);
-    for (std::size_t i = 0; i < count; ++i) {
-      Carriers carriers;
-      float sum = 0.0F;
-      for (std::size_t k = 0; k < 4; ++k) {
-        const float weight = (*weights)[4 * i + k];
-        const std::uint32_t bone = (*joints)[4 * i + k];
-        if (!(weight >= 0.0F && weight <= 1e6F)) {
-          return bad_file(path_, fmt::format("WEIGHTS_0 of vertex {}: expected 0 to 1", i));
-        }
-        if (weight == 0.0F) continue;
-        if (bone >= bones) {
-          return bad_file(path_, fmt::format("JOINTS_0 of vertex {}: expected joints below {}, "
-                                             "found {}",
-                                             i, bones, bone));
-        }
-        carriers.bone[k] = static_cast<std::uint16_t>(bone);
-        carriers.weight[k] = weight;
-        sum += weight;
-      }
-      if (!(sum > 0.0F)) {
-        return bad_file(path_, fmt::format("WEIGHTS_0 of vertex {}: all are 0", i));
-      }
-      for (float& weight : carriers.weight) weight /= sum;
-      piece.carriers.push_back(carriers);
-    }
-    return ok_status();
-  }
-
-  static constexpr std::size_t kMostPieces = 100'000;
-  const tinygltf::Model& model_;
-  const std::string& path_;
-  Rig rig_;
-};
 
 }  // namespace
 
-Result<Rig> read_rig(const tinygltf::Model& model, const std::string& path) {
-  return Reader(model, path).read();
+std::size_t Rig::vertex_count() const {
+  std::size_t count = 0;
+  for (const Piece& piece : pieces) count += piece.positions.size();
+  return count;
+}
+
+void pose_vertices(Rig& rig, std::span<Vec3f> vertices) noexcept {
+  NADE_ASSERT(vertices.size() == rig.vertex_count());
+  place_nodes(rig);
+  std::size_t first = 0;
+  for (const Piece& piece : rig.pieces) {
+    const std::span<Vec3f> part = vertices.subspan(first, piece.positions.size());
+    morph(piece, rig.nodes[piece.node], part);
+    carry(rig, piece, part);
+    first += part.size();
+  }
 }
 
 }  // namespace nade::gltf

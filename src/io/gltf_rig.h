@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -50,19 +51,27 @@ struct Piece {
   std::size_t node = 0;
   std::optional<std::size_t> skin;
   std::vector<Eigen::Vector3f> positions;
-  std::vector<std::vector<Eigen::Vector3f>> targets;  ///< what each morph target adds
-  std::vector<Carriers> carriers;                     ///< of a skin
+  std::vector<std::vector<Eigen::Vector3f>> targets;    ///< what each morph target adds
+  std::vector<Carriers> carriers;                       ///< of a skin
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< of its own positions
 };
 
-/// What of a file takes part in its motion.
+/// A scene's meshes, and what carries their vertices.
 struct Rig {
   std::vector<Node> nodes;
   std::vector<std::size_t> order;  ///< of the nodes, parents first
   std::vector<Skin> skins;
-  std::vector<Piece> pieces;  ///< in the order in which `load_mesh` gives their vertices
+  std::vector<Piece> pieces;
+  std::vector<Eigen::Matrix4d> worlds;  ///< room: of the nodes
+
+  [[nodiscard]] std::size_t vertex_count() const;
 };
 
-/// Reads a model's nodes, skins and meshes with their morph targets.
+/// Where a rig's nodes, bones and morph weights put its vertices, piece after piece; `vertices`
+/// holds `vertex_count()`. Does not allocate.
+void pose_vertices(Rig& rig, std::span<Eigen::Vector3f> vertices) noexcept;
+
+/// Reads a model's nodes, skins and its first scene's meshes with their morph targets.
 [[nodiscard]] Result<Rig> read_rig(const tinygltf::Model& model, const std::string& path);
 
 }  // namespace nade::gltf

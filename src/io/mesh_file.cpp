@@ -15,7 +15,6 @@
 #include <optional>
 #include <string_view>
 
-#include "gltf_accessor.h"
 #include "mesh_formats.h"
 
 namespace nade {
@@ -24,7 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 6> kEndings{".glb", ".gltf", ".obj", ".stl", ".ply", ".off"};
-constexpr std::string_view kPlacePrefix = "place-";
 
 Error refuse(ErrorCode code, const std::string& path, std::string_view what) {
   return Error{code, fmt::format("{}: {}", path, what)};
@@ -91,100 +89,26 @@ std::optional<Error> check_indices(const aiScene& scene, const std::string& path
   return std::nullopt;
 }
 
-Eigen::Matrix4d matrix_of(const aiMatrix4x4& m) {
-  Eigen::Matrix4f matrix;
-  matrix << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2,
-      m.d3, m.d4;
-  return matrix.cast<double>();
-}
-
-void append(const aiMesh& mesh, const Eigen::Matrix4d& to_root, TriangleSoup& soup) {
-  const auto offset = static_cast<std::uint32_t>(soup.vertices.size());
-  for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-    const aiVector3D& v = mesh.mVertices[i];
-    const Eigen::Vector4d at = to_root * Eigen::Vector4f(v.x, v.y, v.z, 1.0F).cast<double>();
-    soup.vertices.emplace_back(at.head<3>().cast<float>());
-  }
-  // A mirroring transform turns triangles inside out.
-  const bool mirrored = to_root.topLeftCorner<3, 3>().determinant() < 0.0;
-  for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-    const aiFace& face = mesh.mFaces[f];
-    if (face.mNumIndices != 3) continue;
-    const unsigned second = mirrored ? 2 : 1;
-    soup.triangles.push_back({offset + face.mIndices[0], offset + face.mIndices[second],
-                              offset + face.mIndices[3 - second]});
-  }
-}
-
-std::optional<MeshPlace> place_of(const aiNode& node, const Eigen::Matrix4d& to_root) {
-  const std::string_view name(node.mName.C_Str(), node.mName.length);
-  if (node.mNumMeshes != 0 || !name.starts_with(kPlacePrefix)) return std::nullopt;
-  const Vec3 up = to_root.block<3, 1>(0, 1);
-  const Vec3 back = to_root.block<3, 1>(0, 2);
-  const Vec3 right = up.cross(back);
-  if (!to_root.allFinite() || !(right.norm() > 0.0)) return std::nullopt;
-  // Up is what matters most, so it is kept and the stroke's way made square to it.
-  Eigen::Matrix3d axes;
-  axes.col(0) = right.normalized();
-  axes.col(1) = up.normalized();
-  axes.col(2) = axes.col(0).cross(axes.col(1));
-  MeshPlace place;
-  place.name = name.substr(kPlacePrefix.size());
-  place.pose = {to_root.block<3, 1>(0, 3), Quat(axes).normalized()};
-  return place;
-}
-
-struct PlacedNode {
-  const aiNode* node;
-  Eigen::Matrix4d to_root;
-};
-
-MeshFile flatten(const aiScene& scene) {
-  MeshFile file;
-  std::vector<PlacedNode> open{{scene.mRootNode, matrix_of(scene.mRootNode->mTransformation)}};
-  while (!open.empty()) {
-    const PlacedNode at = open.back();
-    open.pop_back();
-    for (unsigned i = 0; i < at.node->mNumMeshes; ++i) {
-      append(*scene.mMeshes[at.node->mMeshes[i]], at.to_root, file.soup);
+TriangleSoup soup_of(const aiScene& scene) {
+  TriangleSoup soup;
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& mesh = *scene.mMeshes[m];
+    const auto first = static_cast<std::uint32_t>(soup.vertices.size());
+    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+      const aiVector3D& v = mesh.mVertices[i];
+      soup.vertices.emplace_back(v.x, v.y, v.z);
     }
-    if (std::optional<MeshPlace> place = place_of(*at.node, at.to_root)) {
-      file.places.push_back(std::move(*place));
-    }
-    for (unsigned i = at.node->mNumChildren; i-- > 0;) {
-      const aiNode* child = at.node->mChildren[i];
-      open.push_back({child, at.to_root * matrix_of(child->mTransformation)});
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+      const aiFace& face = mesh.mFaces[f];
+      if (face.mNumIndices != 3) continue;
+      soup.triangles.push_back(
+          {first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
     }
   }
-  return file;
+  return soup;
 }
 
-/// The importer leaves out faces with corners that are not there, and says nothing.
-std::optional<Error> check_gltf(const std::string& path) {
-  const Result<tinygltf::Model> model = gltf::read_model(path);
-  if (!model.ok()) return model.error();
-  for (std::size_t m = 0; m < model->meshes.size(); ++m) {
-    for (const tinygltf::Primitive& primitive : model->meshes[m].primitives) {
-      const auto position = primitive.attributes.find("POSITION");
-      if (primitive.indices < 0 || position == primitive.attributes.end()) continue;
-      const auto at = static_cast<std::size_t>(position->second);
-      if (at >= model->accessors.size()) continue;
-      const auto indices = gltf::read_integers({*model, path, "indices", primitive.indices}, 1);
-      if (!indices.ok()) return indices.error();
-      const std::size_t count = model->accessors[at].count;
-      for (const std::uint32_t index : *indices) {
-        if (index < count) continue;
-        return refuse(
-            ErrorCode::bad_value, path,
-            fmt::format("mesh {}: expected vertices below {}, found {}", m, count, index));
-      }
-    }
-  }
-  return std::nullopt;
-}
-
-/// .glb, .gltf and .obj.
-Result<MeshFile> import_scene(const std::string& path) {
+Result<TriangleSoup> read_obj(const std::string& path) {
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFile(path, 0);
   if (scene == nullptr || scene->mRootNode == nullptr) {
@@ -203,23 +127,22 @@ Result<MeshFile> import_scene(const std::string& path) {
     return refuse(ErrorCode::bad_format, path,
                   "cannot be cut into triangles: " + one_line(importer.GetErrorString()));
   }
-  return flatten(*scene);
+  return soup_of(*scene);
 }
 
-Result<MeshFile> parse(const std::string& path) {
-  const std::string ending = lower_case(fs::path(path).extension().string());
-  if (ending == ".glb" || ending == ".gltf") {
-    if (std::optional<Error> error = check_gltf(path)) return *error;
-    return import_scene(path);
-  }
-  if (ending == ".obj") return import_scene(path);
+Result<TriangleSoup> read_plain(const std::string& path, std::string_view ending) {
   std::ifstream file(path, std::ios::binary);
   const std::string content{std::istreambuf_iterator<char>(file), {}};
   if (file.bad()) return refuse(ErrorCode::unreadable, path, "cannot be read to its end");
   const io::MeshText text{path, content};
-  Result<TriangleSoup> soup = ending == ".off"   ? io::read_off(text)
-                              : ending == ".ply" ? io::read_ply(text)
-                                                 : io::read_stl(text);
+  if (ending == ".off") return io::read_off(text);
+  return ending == ".ply" ? io::read_ply(text) : io::read_stl(text);
+}
+
+Result<MeshFile> parse(const std::string& path) {
+  const std::string ending = lower_case(fs::path(path).extension().string());
+  if (ending == ".glb" || ending == ".gltf") return io::read_gltf(path);
+  Result<TriangleSoup> soup = ending == ".obj" ? read_obj(path) : read_plain(path, ending);
   if (!soup.ok()) return soup.error();
   return MeshFile{std::move(*soup), {}};
 }

@@ -1,0 +1,65 @@
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "gltf_rig.h"
+#include "mesh_formats.h"
+
+namespace nade::io {
+namespace {
+
+constexpr std::string_view kPlacePrefix = "place-";
+
+std::optional<MeshPlace> place_of(const tinygltf::Node& node, const Eigen::Matrix4d& world) {
+  if (node.mesh >= 0 || !node.name.starts_with(kPlacePrefix)) return std::nullopt;
+  const Vec3 up = world.block<3, 1>(0, 1);
+  const Vec3 back = world.block<3, 1>(0, 2);
+  const Vec3 right = up.cross(back);
+  if (!world.allFinite() || !(right.norm() > 0.0)) return std::nullopt;
+  // Up is what matters most, so it is kept and the stroke's way made square to it.
+  Eigen::Matrix3d axes;
+  axes.col(0) = right.normalized();
+  axes.col(1) = up.normalized();
+  axes.col(2) = axes.col(0).cross(axes.col(1));
+  MeshPlace place;
+  place.name = node.name.substr(kPlacePrefix.size());
+  place.pose = {world.block<3, 1>(0, 3), Quat(axes).normalized()};
+  return place;
+}
+
+void append_triangles(const gltf::Rig& rig, const gltf::Piece& piece, std::uint32_t first,
+                      TriangleSoup& soup) {
+  // A mirroring transform turns triangles inside out. Bones have taken the place of a skin's node.
+  const bool mirrored =
+      !piece.skin && rig.worlds[piece.node].topLeftCorner<3, 3>().determinant() < 0.0;
+  const std::size_t second = mirrored ? 2 : 1;
+  for (const auto& corners : piece.triangles) {
+    soup.triangles.push_back(
+        {first + corners[0], first + corners[second], first + corners[3 - second]});
+  }
+}
+
+}  // namespace
+
+Result<MeshFile> read_gltf(const std::string& path) {
+  const Result<tinygltf::Model> model = gltf::read_model(path);
+  if (!model) return model.error();
+  Result<gltf::Rig> rig = gltf::read_rig(*model, path);
+  if (!rig) return rig.error();
+  MeshFile file;
+  file.soup.vertices.resize(rig->vertex_count());
+  gltf::pose_vertices(*rig, file.soup.vertices);
+  std::uint32_t first = 0;
+  for (const gltf::Piece& piece : rig->pieces) {
+    append_triangles(*rig, piece, first, file.soup);
+    first += static_cast<std::uint32_t>(piece.positions.size());
+  }
+  for (std::size_t i = 0; i < rig->nodes.size(); ++i) {
+    if (auto place = place_of(model->nodes[i], rig->worlds[i])) {
+      file.places.push_back(std::move(*place));
+    }
+  }
+  return file;
+}
+
+}  // namespace nade::io
