@@ -125,6 +125,12 @@ Result<ElementView> dense_elements(const AccessorRef& ref, const tinygltf::Acces
   return elements;
 }
 
+/// A count, which is a signed number in some versions of the library.
+template <class T>
+std::size_t or_zero(T count) {
+  return count > 0 ? static_cast<std::size_t>(count) : 0;
+}
+
 /// What a sparse accessor puts in the place of some elements: which, and what.
 struct Replacements {
   ElementView places;
@@ -136,11 +142,7 @@ Result<Replacements> replacements(const AccessorRef& ref, const tinygltf::Access
   const auto& sparse = accessor.sparse;
   const auto packed = [&](const auto& from, int component_type, int width) {
     const std::size_t size = static_cast<std::size_t>(width) * component_size(component_type);
-    return Claim{from.bufferView,
-                 static_cast<std::size_t>(std::max(from.byteOffset, 0)),
-                 static_cast<std::size_t>(std::max(sparse.count, 0)),
-                 size,
-                 size,
+    return Claim{from.bufferView, or_zero(from.byteOffset), or_zero(sparse.count), size, size,
                  component_type};
   };
   const auto places = check_claim(ref, packed(sparse.indices, sparse.indices.componentType, 1));
