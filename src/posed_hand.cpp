@@ -47,6 +47,33 @@ std::size_t leading_digit(const FleshPoint& point) {
   return *most > 0.0 ? static_cast<std::size_t>(most - shares.begin()) : kDigitCount;
 }
 
+/// What one freedom of a digit does to a point: the share of it that turns about an axis, and the
+/// way there from the axis.
+struct Arm {
+  Eigen::Index freedom;
+  double share;
+  const Vec3& axis;
+  Vec3 reach;
+};
+
+/// The arms of a point with the freedoms of one digit, if any; gives where the point is.
+template <class Take>
+Vec3 for_each_arm(const PosedHand& posed, const FleshPoint& point, std::size_t digit, Take take) {
+  Vec3 position = Vec3::Zero();
+  for (std::size_t k = 0; k < point.joints.size() && point.weights[k] > 0.0; ++k) {
+    const std::size_t joint = point.joints[k];
+    const Vec3 carried = posed.flesh.linear[joint] * point.local[k] + posed.flesh.origin[joint];
+    position += point.weights[k] * carried;
+    if (digit == kDigitCount || kCarriers[joint].digit != digit) continue;
+    const DigitAxes& axes = posed.axes[digit];
+    for (std::size_t f = 0; f < kCarriers[joint].freedoms; ++f) {
+      take(Arm{static_cast<Eigen::Index>(f), point.weights[k], axes.axis[f],
+               carried - axes.center[f]});
+    }
+  }
+  return position;
+}
+
 }  // namespace
 
 HandModel measure_model(const HandPose& tracked, double scale) noexcept {
@@ -98,23 +125,49 @@ PosedHand pose_hand(const HandModel& model, const Correction& correction) noexce
 ContactRow motion_along(const PosedHand& posed, const FleshPoint& point,
                         const Vec3& direction) noexcept {
   ContactRow row;
+  row.point = &point;
   const std::size_t digit = leading_digit(point);
-  Vec3 position = Vec3::Zero();
-  for (std::size_t k = 0; k < point.joints.size() && point.weights[k] > 0.0; ++k) {
-    const std::size_t joint = point.joints[k];
-    const Vec3 carried = posed.flesh.linear[joint] * point.local[k] + posed.flesh.origin[joint];
-    position += point.weights[k] * carried;
-    if (digit == kDigitCount || kCarriers[joint].digit != digit) continue;
-    const DigitAxes& axes = posed.axes[digit];
-    for (std::size_t f = 0; f < kCarriers[joint].freedoms; ++f) {
-      const double lever = axes.axis[f].dot((carried - axes.center[f]).cross(direction));
-      row.bend[static_cast<Eigen::Index>(f)] += point.weights[k] * lever;
-    }
-  }
+  const Vec3 position = for_each_arm(posed, point, digit, [&](const Arm& arm) {
+    row.bend[arm.freedom] += arm.share * arm.axis.dot(arm.reach.cross(direction));
+  });
   row.wrist.head<3>() = direction;
   row.wrist.tail<3>() = (position - posed.hand[Joint::palm].position).cross(direction);
   if (digit != kDigitCount) row.digit = digit_at(digit);
   return row;
+}
+
+LeverGrowth lever_growth(const PosedHand& posed, const ContactRow& row,
+                         const Eigen::Matrix3d& frame) noexcept {
+  const Vec3 direction = frame * row.wrist.head<3>();
+  // On a curved surface the direction turns as the point goes along.
+  const auto curve = [&](const Vec3& motion, const Vec3& other) {
+    return row.curvature * (motion.dot(other) - direction.dot(motion) * direction.dot(other));
+  };
+  // Turned first about the inner axis, a point's motion turns about the outer one.
+  const auto growth_of = [&](const Vec3& outer, const Vec3& outer_motion, const Vec3& motion) {
+    return direction.dot(outer.cross(motion)) + curve(outer_motion, motion);
+  };
+  LeverGrowth growth;
+  std::array<Vec3, kDigitFreedoms> motions;
+  const std::size_t digit = row.digit ? index_of(*row.digit) : kDigitCount;
+  const Vec3 position = for_each_arm(posed, *row.point, digit, [&](const Arm& arm) {
+    // A joint's arms come one after the other, from the base on.
+    const auto f = static_cast<std::size_t>(arm.freedom);
+    motions[f] = arm.axis.cross(arm.reach);
+    for (std::size_t outer = 0; outer <= f; ++outer) {
+      const Vec3& axis = posed.axes[digit].axis[outer];
+      growth.bend(static_cast<Eigen::Index>(outer), arm.freedom) +=
+          arm.share * growth_of(axis, motions[outer], motions[f]);
+    }
+  });
+  growth.bend = Eigen::Matrix4d(growth.bend.selfadjointView<Eigen::Upper>());
+  const Vec3 reach = position - posed.hand[Joint::palm].position;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const Vec3 motion = frame.col(i).cross(reach);
+    growth.wrist[i] = curve(frame.col(i), frame.col(i));
+    growth.wrist[3 + i] = growth_of(frame.col(i), motion, motion);
+  }
+  return growth;
 }
 
 }  // namespace nade

@@ -46,4 +46,13 @@ struct PosedHand {
 [[nodiscard]] ContactRow motion_along(const PosedHand& posed, const FleshPoint& point,
                                       const Vec3& direction) noexcept;
 
+/// How those numbers themselves grow: each of the wrist's with its own freedom, the turns about
+/// the axes of a frame; the bends' with all of the digit's freedoms, symmetric.
+struct LeverGrowth {
+  Eigen::Matrix<double, 6, 1> wrist = Eigen::Matrix<double, 6, 1>::Zero();
+  Eigen::Matrix4d bend = Eigen::Matrix4d::Zero();
+};
+[[nodiscard]] LeverGrowth lever_growth(const PosedHand& posed, const ContactRow& row,
+                                       const Eigen::Matrix3d& frame) noexcept;
+
 }  // namespace nade

@@ -126,7 +126,7 @@ class Settling {
       if (memory_.rows.empty() && is_none(correction_)) break;
       const HandFreedoms step = least_cost_step(problem());
       take_step(step);
-      find_push(step);
+      find_forces(posed, step);
       if (reach_of(step) < kSettled_m) break;
     }
     return finish();
@@ -138,7 +138,8 @@ class Settling {
   [[nodiscard]] HandFreedoms step_between(const Correction& from, const Correction& to) const;
   void take_step(const HandFreedoms& step);
   [[nodiscard]] SettleProblem problem() const;
-  void find_push(const HandFreedoms& step);
+  void find_forces(const PosedHand& posed, const HandFreedoms& step);
+  void find_push(const Vec3& force);
   void remember_surface_motion();
   void rub(const Vec3& stroked);
   SettledHand finish();
@@ -179,6 +180,7 @@ void Settling::start() {
   if (fresh_) {
     memory_.correction = {};
     memory_.push = memory_.carried = memory_.lag = Vec3::Zero();
+    memory_.geometric.setZero();
     memory_.height_m = 0.0;
     memory_.slips = false;
   }
@@ -231,22 +233,25 @@ SettleProblem Settling::problem() const {
   SettleProblem problem;
   problem.rows = memory_.rows;
 
-  HandFreedoms& back = problem.back.stiffness;
+  HandFreedoms back;
   back.head<3>() << kSlideStiffness, kSlideStiffness, kShiftStiffness;
   back.segment<3>(3) << kTurnStiffness, kTurnStiffness, kSpinStiffness;
   for (std::size_t d = 0; d < kDigitCount; ++d) {
     back.segment<4>(first_freedom(d)) =
         digit_at(d) == Digit::thumb ? kThumbStiffness : kFingerStiffness;
   }
-  problem.back.from = step_between({}, correction_);
-  problem.back.from.head<3>() -= search_.frame.transpose() * (memory_.carried + memory_.lag);
+  HandFreedoms away = step_between({}, correction_);
+  away.head<3>() -= search_.frame.transpose() * (memory_.carried + memory_.lag);
+  problem.springs.add(back, -away);
+  // The forces on a hand found anew are not yet those that it will rest with.
+  if (!fresh_) problem.springs.add(memory_.geometric, HandFreedoms::Zero());
 
   const HandFreedoms changed = step_between(last_, correction_);
-  problem.viscous.from = changed;
   if (!fresh_ && !memory_.push.isZero()) {  // in the air the rate alone bounds the release
-    problem.viscous.stiffness = kViscosity_s / seconds_ * back;
-    problem.viscous.stiffness.head<2>() *= kSlideTime_s / kViscosity_s;
-    problem.viscous.stiffness[2] = 0.0;  // out of the object at once, and back
+    HandFreedoms viscous = kViscosity_s / seconds_ * back;
+    viscous.head<2>() *= kSlideTime_s / kViscosity_s;
+    viscous[2] = 0.0;  // out of the object at once, and back
+    problem.springs.add(viscous, -changed);
   }
 
   problem.range.low.setConstant(-1.0);
@@ -276,16 +281,38 @@ SettleProblem Settling::problem() const {
   return problem;
 }
 
-/// The way the object pushes, smoothed.
-void Settling::find_push(const HandFreedoms& step) {
-  Vec3 force = Vec3::Zero();
+/// What the rows' forces are after a step: the object's push, and what they add to the stiffness
+/// where the levers that they act on change (Tournier, Nesme, Gilles, Faure. Stable constrained
+/// dynamics. 2015). Without it planes send some bends from side to side, round after round.
+void Settling::find_forces(const PosedHand& posed, const HandFreedoms& step) {
+  Vec3 push = Vec3::Zero();
+  Eigen::Matrix<double, 6, 1> wrist = Eigen::Matrix<double, 6, 1>::Zero();
+  std::array<Eigen::Matrix4d, kDigitCount> bend;
+  bend.fill(Eigen::Matrix4d::Zero());
   touches_ = false;
   for (const ContactRow& row : memory_.rows) {
     const double gap_m = gap_after(row, step);
+    if (const double force = force_at(row, gap_m); force != 0.0) {
+      const LeverGrowth growth = lever_growth(posed, row, search_.frame);
+      wrist -= force * growth.wrist;
+      if (row.digit) bend[index_of(*row.digit)] -= force * growth.bend;
+    }
     if (gap_m > 0.0) continue;
     touches_ = true;
-    if (row.pull == 0.0) force -= gap_m * (search_.frame * row.wrist.head<3>());
+    if (row.pull == 0.0) push -= gap_m * (search_.frame * row.wrist.head<3>());
   }
+  // By rows, so that it is no less than the matrix where that is above 0 (Gershgorin).
+  memory_.geometric.head<6>() = wrist.cwiseMax(0.0);
+  for (std::size_t d = 0; d < kDigitCount; ++d) {
+    const DigitFreedoms own = bend[d].diagonal();
+    memory_.geometric.segment<4>(first_freedom(d)) =
+        (bend[d].cwiseAbs().rowwise().sum() + own - own.cwiseAbs()).cwiseMax(0.0);
+  }
+  find_push(push);
+}
+
+/// The way the object pushes, smoothed.
+void Settling::find_push(const Vec3& force) {
   const double strength = force.norm();
   if (!(strength > 1e-12)) {
     push_ = touches_ ? memory_.push : Vec3::Zero();

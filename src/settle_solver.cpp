@@ -94,7 +94,7 @@ class Descent {
 
   /// Toward the least cost of the quadratic that holds here.
   [[nodiscard]] HandFreedoms newton_direction() const {
-    HandFreedoms diagonal = problem_.back.stiffness + problem_.viscous.stiffness;
+    HandFreedoms diagonal = problem_.springs.stiffness;
     HandFreedoms force = -spring_slope(step_);
     for (const Walls* walls : {&problem_.range, &problem_.rate}) {
       const HandFreedoms over = beyond(*walls, step_);
@@ -129,8 +129,7 @@ class Descent {
 
  private:
   [[nodiscard]] HandFreedoms spring_slope(const HandFreedoms& step) const {
-    return problem_.back.stiffness.cwiseProduct(problem_.back.from + step) +
-           problem_.viscous.stiffness.cwiseProduct(problem_.viscous.from + step);
+    return problem_.springs.stiffness.cwiseProduct(step) - problem_.springs.force;
   }
 
   /// First and second derivative of the cost along the direction.
@@ -140,9 +139,8 @@ class Descent {
   };
   [[nodiscard]] LineSlope slope_at(double length, const HandFreedoms& direction) const {
     const HandFreedoms step = step_ + length * direction;
-    LineSlope result{
-        spring_slope(step).dot(direction),
-        direction.cwiseAbs2().dot(problem_.back.stiffness + problem_.viscous.stiffness)};
+    LineSlope result{spring_slope(step).dot(direction),
+                     direction.cwiseAbs2().dot(problem_.springs.stiffness)};
     for (const Walls* walls : {&problem_.range, &problem_.rate}) {
       const HandFreedoms over = beyond(*walls, step);
       for (Eigen::Index i = 0; i < kHandFreedoms; ++i) {
@@ -188,6 +186,10 @@ class Descent {
 
 double gap_after(const ContactRow& row, const HandFreedoms& step) noexcept {
   return row.gap_m + along(row, step);
+}
+
+double force_at(const ContactRow& row, double gap_m) noexcept {
+  return -stiffness_at(row, gap_m) * gap_m;
 }
 
 HandFreedoms least_cost_step(const SettleProblem& problem) noexcept {

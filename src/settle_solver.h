@@ -6,17 +6,17 @@
 
 namespace nade {
 
-/// The hand's freedoms: shift and turn of the wrist, then four bends a digit.
-inline constexpr Eigen::Index kHandFreedoms = 6 + 4 * 5;
-using HandFreedoms = Eigen::Matrix<double, kHandFreedoms, 1>;
-[[nodiscard]] constexpr Eigen::Index first_freedom(std::size_t digit) {
-  return 6 + 4 * static_cast<Eigen::Index>(digit);
-}
-
-/// A spring on every freedom: it costs half of stiffness times the square of `from` plus the step.
+/// Springs on every freedom: they cost half of stiffness times the square of the step from where
+/// they rest.
 struct Springs {
   HandFreedoms stiffness = HandFreedoms::Zero();
-  HandFreedoms from = HandFreedoms::Zero();
+  HandFreedoms force = HandFreedoms::Zero();  ///< at no step
+
+  /// One more on every freedom, at rest after the step `rest`.
+  void add(const HandFreedoms& more, const HandFreedoms& rest) {
+    stiffness += more;
+    force += more.cwiseProduct(rest);
+  }
 };
 
 /// A wall on both sides of every freedom's step, as stiff as said. low <= high.
@@ -28,10 +28,9 @@ struct Walls {
 
 /// Springs against walls, and rows that push where their gap is below 0 or pull where it is above.
 struct SettleProblem {
-  Springs back;     ///< to the tracked pose
-  Springs viscous;  ///< to the last frame's correction
-  Walls range;      ///< of motion
-  Walls rate;       ///< of change
+  Springs springs;
+  Walls range;  ///< of motion
+  Walls rate;   ///< of change
   std::span<const ContactRow> rows;
 };
 
@@ -44,5 +43,8 @@ inline constexpr double kSurfaceStiffness = 4e6;
 
 /// The gap of a row after a step.
 [[nodiscard]] double gap_after(const ContactRow& row, const HandFreedoms& step) noexcept;
+
+/// How hard a row pushes at a gap, below 0 where it pulls.
+[[nodiscard]] double force_at(const ContactRow& row, double gap_m) noexcept;
 
 }  // namespace nade

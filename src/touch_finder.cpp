@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace nade {
 namespace {
@@ -25,6 +26,9 @@ constexpr double kSamePlaneOfGap = 0.2;
 constexpr double kFarSlack_m = 0.02;
 /// Nor is one that faces away, until it could have come this share of what its skin lacks to a row.
 constexpr double kUnseen = 0.5;
+/// A pad's curvature is learned from ways of about this length on; no sharper.
+constexpr double kLeastWay_m = 0.002;
+constexpr double kSharpest = 100.0;
 /// Skin stretches by no more than this when the hand is posed, and goes no farther than a joint.
 constexpr double kStretch = 1.3;
 
@@ -39,27 +43,36 @@ PadPlane plane_at(const SurfacePoint& nearest, const Vec3& middle) {
   return plane;
 }
 
-/// The plane of a pad, if it is near enough to matter: found anew, or as it was.
-const PadPlane* plane_of(const Object& object, const Vec3& middle_world, double reach_m,
-                         double travel_m, PadMemory& known) {
+/// Takes in how the normal turned since the last look. A way shorter than the least says little.
+void learn_curvature(const PadPlane& before, const PadPlane& now, PadMemory& known) {
+  const Vec3 way = now.middle - before.middle;
+  const double trust = way.squaredNorm() / (way.squaredNorm() + kLeastWay_m * kLeastWay_m);
+  const double seen = way.dot(now.normal - before.normal) / (way.squaredNorm() + 1e-18);
+  known.curvature += trust * (std::clamp(seen, -kSharpest, kSharpest) - known.curvature);
+}
+
+/// Whether a pad is near enough to matter; its plane then is found anew, or as it was.
+bool find_plane(const Object& object, const Vec3& middle_world, double reach_m, double travel_m,
+                PadMemory& known) {
   const Placement& placement = object.placement();
   const double scale = placement.scale;
   const Vec3 middle = placement.to_local(middle_world);
   const double away_m = scale * (middle - known.middle).norm();
   known.free_m = known.clearance_m - away_m + travel_m;
-  if (known.clearance_m - away_m > reach_m) return nullptr;
-  if (known.plane && away_m <= known.same_m) return &*known.plane;
+  if (known.clearance_m - away_m > reach_m) return false;
+  if (known.plane && away_m <= known.same_m) return true;
   const double search_m = reach_m + kFarSlack_m;
   const std::optional<SurfacePoint> nearest =
       object.surface().closest_point(middle, search_m / scale, known.hint);
   known.middle = middle;
-  known.plane.reset();
+  const std::optional<PadPlane> before = std::exchange(known.plane, std::nullopt);
   known.clearance_m = nearest ? scale * nearest->signed_distance : search_m;
   known.free_m = known.clearance_m + travel_m;
-  if (!nearest || known.clearance_m > reach_m) return nullptr;
+  if (!nearest || known.clearance_m > reach_m) return false;
   known.plane = plane_at(*nearest, middle);
+  if (before) learn_curvature(*before, *known.plane, known);
   known.same_m = kSamePlane_m;
-  return &*known.plane;
+  return true;
 }
 
 /// Adds how far the hand has gone against the object since the last look.
@@ -83,11 +96,12 @@ ContactRow row_of(const TouchSearch& search, const PosedHand& posed, const Flesh
 
 /// Takes in a pad's skin: rows for what is near, and what its part needs to know. Gives the lowest
 /// skin's height.
-double add_pad(const TouchSearch& search, const FleshPad& pad, const PadPlane& plane,
+double add_pad(const TouchSearch& search, const FleshPad& pad, const PadMemory& known,
                const PosedHand& posed, PartTouches& parts, std::vector<ContactRow>& rows) {
   const Placement& placement = search.object.placement();
-  const Vec3 surface_point = placement.to_world(plane.point);
-  const Vec3 normal = placement.pose.rotation * plane.normal;
+  const Vec3 surface_point = placement.to_world(known.plane->point);
+  const Vec3 normal = placement.pose.rotation * known.plane->normal;
+  const double curvature = known.curvature / placement.scale;
   double lowest_m = std::numeric_limits<double>::infinity();
   for (std::size_t k = pad.first; k < pad.first + pad.count; ++k) {
     const FleshPoint& point = search.flesh.skin[k];
@@ -102,11 +116,13 @@ double add_pad(const TouchSearch& search, const FleshPad& pad, const PadPlane& p
         part.point = &point;
         part.surface_point = surface_point;
         part.normal = normal;
+        part.curvature = curvature;
       }
     }
     if (gap_m > search.row_reach_m || rows.size() == kMostContactRows) continue;
     ContactRow& row = rows.emplace_back(row_of(search, posed, point, normal));
     row.gap_m = gap_m + search.sink_m - kMargin_m;
+    row.curvature = curvature;
   }
   return lowest_m;
 }
@@ -120,6 +136,7 @@ void add_pulls(const TouchSearch& search, const PosedHand& posed, const PartTouc
     if (share == 0.0) continue;
     ContactRow& row = rows.emplace_back(row_of(search, posed, *part.point, part.normal));
     row.gap_m = part.gap_m + search.sink_m - kPullRest_m;
+    row.curvature = part.curvature;
     row.pull = share * kPullStiffness;
   }
 }
@@ -142,10 +159,9 @@ PartTouches find_touches(const TouchSearch& search, const PosedHand& posed,
                            std::max(search.row_reach_m, pad.part ? kPullReach_m : 0.0);
     PadMemory& known = memory.pads[i];
     if (known.free_m - memory.travel_m > reach_m) continue;
-    const PadPlane* plane =
-        plane_of(search.object, posed.flesh.position(pad.middle), reach_m, memory.travel_m, known);
-    if (plane == nullptr) continue;
-    const double lowest_m = add_pad(search, pad, *plane, posed, parts, memory.rows);
+    const Vec3 middle = posed.flesh.position(pad.middle);
+    if (!find_plane(search.object, middle, reach_m, memory.travel_m, known)) continue;
+    const double lowest_m = add_pad(search, pad, known, posed, parts, memory.rows);
     if (pad.part) continue;
     known.same_m = std::max(kSamePlane_m, kSamePlaneOfGap * lowest_m);
     if (lowest_m <= search.row_reach_m) continue;

@@ -18,6 +18,7 @@ struct PartTouch {
   const FleshPoint* point = nullptr;                          ///< of the drawn one, the nearest
   Vec3 surface_point = Vec3::Zero();
   Vec3 normal = Vec3::UnitY();
+  double curvature = 0.0;  ///< 1/m
 };
 using PartTouches = std::array<PartTouch, kPartCount>;
 

@@ -79,6 +79,15 @@ struct Tally {
   int same_on_meshes = 0;
 };
 
+/// Where a hand wanders: about the object's middle, or about a place on its surface.
+Vec3 middle_of_wandering(test::Random& random, const Object& object) {
+  const Vec3& middle = object.placement().pose.position;
+  const Vec3 seen_from = middle + random.direction();
+  SurfaceHint hint;
+  const auto nearest = object.closest_point(seen_from, 10.0, hint);
+  return random.below(2) == 0 && nearest ? nearest->point : middle;
+}
+
 /// One hand that wanders through one object, three times over: as it is, in the mirror, and moved
 /// together with the object.
 void expect_properties(test::Random& random, Tally& tally) {
@@ -92,8 +101,9 @@ void expect_properties(test::Random& random, Tally& tally) {
   const Object in_mirror(*surface.surface, mirrored(placement));
   const HandPose hand = random_hand(random);
   const Quat turn = random.rotation();
+  const Vec3 middle = middle_of_wandering(random, here);
   const Vec3 roll = random.direction();
-  const double reach_m = random.uniform(0.02, 0.2);
+  const double reach_m = random.uniform(0.005, 0.2);
   const double speed = random.uniform(0.01, 0.2);
   HandCorrector corrector;
   HandCorrector again;
@@ -105,7 +115,7 @@ void expect_properties(test::Random& random, Tally& tally) {
     const Vec3 palm(reach_m * std::sin(speed * i), reach_m * std::cos(1.3 * speed * i),
                     reach_m * std::sin(0.7 * speed * i));
     const Quat rolled(Eigen::AngleAxisd(0.3 * std::sin(0.4 * speed * i), roll));
-    const HandPose tracked = test::placed_hand(hand, placement.pose.position + palm, rolled * turn);
+    const HandPose tracked = test::placed_hand(hand, middle + palm, rolled * turn);
     const CorrectedHand& corrected = corrector.update(tracked, here, time_ns);
     const HandPose drawn = corrected.pose;
     SCOPED_TRACE(testing::Message() << surface.name << ", frame " << i);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "nade/corrector.h"
 #include "nade/mesh.h"
@@ -116,6 +118,49 @@ TEST(Settle, FingersThatArePushedUpKeepTheirCurl) {
     ASSERT_GT(lowest_skin(drawn, plane()), -0.0005) << i;
   }
   EXPECT_GT(curl_of(drawn) - relaxed, 0.8 * rad(48.0));
+}
+
+/// All joints flexed by 0.7 rad, as far as they can be.
+HandPose gripping_hand() {
+  HandAngles angles = test::relaxed_angles();
+  for (std::size_t d = 0; d < kDigitCount; ++d) {
+    for (std::size_t i = 0; i < kHingeCount; ++i) {
+      const HingeRange range = range_of_motion(digit_at(d), i);
+      angles[d][i].flexion = std::clamp(0.7, range.flexion_min, range.flexion_max);
+    }
+  }
+  return generic_size_hand(Handedness::right, angles);
+}
+
+/// How far a joint is from halfway between where it was and where it will be.
+double unevenness(const HandPose& before, const HandPose& now, const HandPose& after) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    const Vec3 halfway = 0.5 * (before.joints[i].position + after.joints[i].position);
+    most = std::max(most, (halfway - now.joints[i].position).norm());
+  }
+  return most;
+}
+
+/// Where digits reach around a ball, planes alone send bends to and fro, frame after frame.
+TEST(Settle, AHandThatGripsABallAndGoesStraightOnDoesNotTremble) {
+  const HandPose hand = gripping_hand();
+  for (const auto& [radius_m, depth_m] : {std::pair{0.06, 0.02}, {0.06, 0.04}, {0.07, 0.06}}) {
+    const SphereSurface surface(radius_m);
+    HandCorrector corrector(settling());
+    std::vector<HandPose> drawn;
+    for (int i = 0; i < 60; ++i) {
+      const Vec3 palm(0.0005 * (i - 30), radius_m - depth_m, 0.04);
+      const HandPose tracked = test::placed_hand(hand, palm, Quat::Identity());
+      drawn.push_back(corrector.update(tracked, Object(surface), kFrame_ns * i).pose);
+    }
+    std::vector<double> uneven;
+    for (std::size_t i = 1; i + 1 < drawn.size(); ++i) {
+      uneven.push_back(unevenness(drawn[i - 1], drawn[i], drawn[i + 1]));
+    }
+    std::sort(uneven.begin(), uneven.end());
+    EXPECT_LT(uneven[uneven.size() / 2], 0.00015) << radius_m << " m, " << depth_m << " m deep";
+  }
 }
 
 TEST(Settle, ADeepHandThatIsFoundComesOut) {

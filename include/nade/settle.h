@@ -39,18 +39,28 @@ struct PadMemory {
   SurfaceHint hint;
   std::optional<PadPlane> plane;
   Vec3 middle = Vec3::Zero();  ///< where it was looked for last; object frame
+  double curvature = 0.0;      ///< there, along the way that the pad went, 1/m; convex above 0
   double same_m = 0.0;         ///< the plane serves within this of there
   double clearance_m = 0.0;    ///< there; more where its skin faces away
   double free_m = 0.0;         ///< what was left of that when last seen, plus `travel_m` then
 };
 
+/// The hand's freedoms: shift and turn of the wrist, then four bends a digit.
+inline constexpr Eigen::Index kHandFreedoms = 6 + 4 * 5;
+using HandFreedoms = Eigen::Matrix<double, kHandFreedoms, 1>;
+[[nodiscard]] constexpr Eigen::Index first_freedom(std::size_t digit) {
+  return 6 + 4 * static_cast<Eigen::Index>(digit);
+}
+
 /// One point of the skin against one plane: how its gap grows with the hand's freedoms.
 struct ContactRow {
+  const FleshPoint* point = nullptr;  ///< of the flesh that is settled
   Eigen::Matrix<double, 6, 1> wrist = Eigen::Matrix<double, 6, 1>::Zero();  ///< shift, turn
   DigitFreedoms bend = DigitFreedoms::Zero();
   std::optional<Digit> digit;  ///< whose bend counts
   double gap_m = 0.0;
-  double pull = 0.0;  ///< above 0: not kept out but drawn near, with this weight
+  double curvature = 0.0;  ///< of the surface, 1/m; convex above 0
+  double pull = 0.0;       ///< above 0: not kept out but drawn near, with this weight
 };
 
 /// What settle_hand remembers of a hand from frame to frame, and room to work in.
@@ -65,6 +75,7 @@ struct SettleMemory {
   Vec3 carried = Vec3::Zero();       ///< along the surface, from what was stroked so far
   Vec3 lag = Vec3::Zero();           ///< along the surface, by friction
   bool slips = false;
+  HandFreedoms geometric = HandFreedoms::Zero();  ///< stiffness, of the last round's contacts
   std::vector<PadMemory> pads;
   std::vector<ContactRow> rows;
   std::array<Vec3, kJointCount> joints{};  ///< of the hand as looked at last; object frame
