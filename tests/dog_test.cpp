@@ -6,8 +6,6 @@
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -19,6 +17,7 @@
 
 #include "nade/io/mesh_file.h"
 #include "nade/mesh.h"
+#include "support/files.h"
 
 namespace nade {
 namespace {
@@ -60,11 +59,6 @@ class Dog : public testing::Test {
 };
 
 MeshFile* Dog::file_ = nullptr;
-
-std::vector<char> read_whole(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
 
 TEST_F(Dog, ClosedManifoldInOnePieceWithoutHandles) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
@@ -191,9 +185,9 @@ TEST_F(Dog, ComesOutTheSameEveryTime) {
   const auto again = std::filesystem::path(testing::TempDir()) / "dog_again.glb";
   const std::string command = "\"" NADE_TEST_MAKE_DOG "\" \"" + again.string() + "\" > /dev/null";
   ASSERT_EQ(std::system(command.c_str()), 0);
-  const std::vector<char> first = read_whole(NADE_TEST_DOG);
+  const std::string first = test::read_file(NADE_TEST_DOG);
   EXPECT_FALSE(first.empty());
-  EXPECT_TRUE(first == read_whole(again));
+  EXPECT_TRUE(first == test::read_file(again));
   std::filesystem::remove(again);
 }
 

@@ -3,14 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <string>
 
 #include "generic_hand.h"
 #include "skinned_hand_file.h"
+#include "support/files.h"
 
 namespace nade {
 namespace {
@@ -145,11 +144,10 @@ TEST(HandFile, AccessorBeyondItsBufferIsRefused) {
 TEST(HandFile, CutOffAnywhereIsAnError) {
   const std::optional<std::string> path = test::generic_hand_path(Handedness::right);
   if (!path) GTEST_SKIP() << "generic hand not fetched";
-  std::ifstream stream(*path, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  const std::string bytes = test::read_file(*path);
   const std::string cut = testing::TempDir() + "nade_cut.glb";
   for (std::size_t length = 0; length < bytes.size(); length += 997) {
-    std::ofstream(cut, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(length));
+    test::write_file(cut, bytes.substr(0, length));
     EXPECT_FALSE(load_hand_mesh(cut, Handedness::right)) << length;
   }
   std::filesystem::remove(cut);
@@ -158,15 +156,14 @@ TEST(HandFile, CutOffAnywhereIsAnError) {
 TEST(HandFile, DamagedBytesNeverCrash) {
   const std::optional<std::string> path = test::generic_hand_path(Handedness::right);
   if (!path) GTEST_SKIP() << "generic hand not fetched";
-  std::ifstream stream(*path, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  const std::string bytes = test::read_file(*path);
   const std::string damaged_path = testing::TempDir() + "nade_damaged.glb";
   std::mt19937 random(7);
   for (int round = 0; round < 300; ++round) {
     std::string damaged = bytes;
     // Mostly in the JSON part, where a number changes what is read.
     for (int i = 0; i < 3; ++i) damaged[random() % 7800U] = static_cast<char>('0' + random() % 10);
-    std::ofstream(damaged_path, std::ios::binary) << damaged;
+    test::write_file(damaged_path, damaged);
     const Result<HandMesh> mesh = load_hand_mesh(damaged_path, Handedness::right);
     EXPECT_TRUE(mesh || !mesh.error().message.empty());
   }

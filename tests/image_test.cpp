@@ -4,22 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include "nade/draw/text.h"
+#include "support/files.h"
 #include "support/scratch_folder.h"
 
 namespace nade::draw {
 namespace {
 
 using ImageFile = test::FolderTest;
-
-std::string bytes_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 Image checkered() {
   Image image = Image::blank(37, 21);
@@ -45,15 +39,15 @@ TEST_F(ImageFile, SamePictureGivesTheSameFile) {
   const std::string second = path("2.png");
   ASSERT_TRUE(save_png(first, checkered()));
   ASSERT_TRUE(save_png(second, checkered()));
-  EXPECT_EQ(bytes_of(first), bytes_of(second));
+  EXPECT_EQ(test::read_file(first), test::read_file(second));
 }
 
 TEST_F(ImageFile, BrokenFileIsNamed) {
   const std::string whole = path("1.png");
   const std::string half = path("2.png");
   ASSERT_TRUE(save_png(whole, checkered()));
-  const std::string bytes = bytes_of(whole);
-  std::ofstream(half, std::ios::binary) << bytes.substr(0, bytes.size() / 2);
+  const std::string bytes = test::read_file(whole);
+  test::write_file(half, bytes.substr(0, bytes.size() / 2));
   const Result<Image> loaded = load_image(half);
   ASSERT_FALSE(loaded);
   EXPECT_EQ(loaded.error().code, ErrorCode::bad_format);

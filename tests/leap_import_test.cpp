@@ -26,7 +26,7 @@ bool have_clips() { return std::filesystem::exists(clip_path(kClips[0])); }
 
 class LeapImport : public test::RecordingFiles {
  protected:
-  [[nodiscard]] static json stored() { return json::parse(content_of(kStored)); }
+  [[nodiscard]] static json stored() { return json::parse(test::read_file(kStored)); }
   [[nodiscard]] WholeRecording read(const json& recording) const {
     return read_whole(given("in.json", recording.dump()));
   }
@@ -223,7 +223,7 @@ TEST_F(LeapImport, BadInputIsNamed) {
 }
 
 TEST_F(LeapImport, CutOffFileIsReadToItsLastWholeFrame) {
-  const std::string text = content_of(kStored);
+  const std::string text = test::read_file(kStored);
   const WholeRecording whole = read_whole(given("cut.json", text.substr(0, text.size() - 900)));
   EXPECT_EQ(whole.error, "");
   EXPECT_EQ(whole.frames.size(), 3u);
@@ -233,7 +233,7 @@ TEST_F(LeapImport, CutOffFileIsReadToItsLastWholeFrame) {
 TEST_F(LeapImport, RealClipsImportEveryFrame) {
   if (!have_clips()) GTEST_SKIP() << "no recordings in " << NADE_TEST_SHARED_DATA;
   for (const std::string& clip : kClips) {
-    const json raw = json::parse(content_of(clip_path(clip)));
+    const json raw = json::parse(test::read_file(clip_path(clip)));
     const WholeRecording whole = read_whole(clip_path(clip));
     EXPECT_EQ(whole.error, "");
     EXPECT_TRUE(whole.warnings.empty()) << clip;

@@ -199,7 +199,7 @@ TEST_F(Recording, ToleratesMarksBlankLinesAndLineEnds) {
 
 TEST_F(Recording, CutOffPlainFileIsReadToItsLastWholeLine) {
   write_random("in.jsonl", 10);
-  const std::string text = content_of(path("in.jsonl"));
+  const std::string text = test::read_file(path("in.jsonl"));
   const WholeRecording whole = read_whole(given("cut.jsonl", text.substr(0, text.size() - 30)));
   EXPECT_EQ(whole.error, "");
   EXPECT_EQ(whole.frames.size(), 9u);
@@ -208,7 +208,7 @@ TEST_F(Recording, CutOffPlainFileIsReadToItsLastWholeLine) {
 
 TEST_F(Recording, CutOffGzipIsReadAsFarAsItGoes) {
   write_random("in.jsonl.gz", 200);
-  const std::string bytes = content_of(path("in.jsonl.gz"));
+  const std::string bytes = test::read_file(path("in.jsonl.gz"));
   for (const std::size_t size : {bytes.size() / 2, bytes.size() - 1, bytes.size() - 8}) {
     const WholeRecording whole = read_whole(given("cut.jsonl.gz", bytes.substr(0, size)));
     EXPECT_EQ(whole.error, "");
@@ -219,7 +219,7 @@ TEST_F(Recording, CutOffGzipIsReadAsFarAsItGoes) {
 
 TEST_F(Recording, DamagedGzipIsAnError) {
   write_random("in.jsonl.gz", 200);
-  std::string bytes = content_of(path("in.jsonl.gz"));
+  std::string bytes = test::read_file(path("in.jsonl.gz"));
   bytes[bytes.size() - 6] = static_cast<char>(~bytes[bytes.size() - 6]);  // its check sum
   const WholeRecording whole = read_whole(given("bad.jsonl.gz", bytes));
   EXPECT_TRUE(contains(whole.error, "bad.jsonl.gz: expected whole gzip data")) << whole.error;
@@ -365,9 +365,9 @@ TEST_F(Recording, AppearsOnlyWhenFinished) {
     Result<RecordingWriter> writer = RecordingWriter::create(path("out.jsonl"), {});
     ASSERT_TRUE(writer.ok());
     EXPECT_TRUE(writer->write({}).ok());
-    EXPECT_EQ(content_of(path("out.jsonl")), "precious");
+    EXPECT_EQ(test::read_file(path("out.jsonl")), "precious");
   }
-  EXPECT_EQ(content_of(path("out.jsonl")), "precious");
+  EXPECT_EQ(test::read_file(path("out.jsonl")), "precious");
   EXPECT_EQ(files(), std::vector<std::string>{"out.jsonl"});
   write_random("out.jsonl", 2);
   EXPECT_EQ(read_whole(path("out.jsonl")).frames.size(), 2u);

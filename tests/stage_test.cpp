@@ -14,6 +14,7 @@
 #include "nade/draw/gl_context.h"
 #include "nade/eval/synth.h"
 #include "nade/io/hand_file.h"
+#include "support/files.h"
 #include "support/scratch_folder.h"
 #include "support/stored_picture.h"
 
@@ -530,9 +531,8 @@ TEST_F(StageFiles, TextureBesideAGltfFile) {
 }
 
 TEST_F(StageFiles, TextureInAGltfFile) {
-  std::ifstream file(path("board.png"), std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  write_gltf("inside", {{"uri", "data:image/png;base64," + base64(bytes)}});
+  const std::string board = test::read_file(path("board.png"));
+  write_gltf("inside", {{"uri", "data:image/png;base64," + base64(board)}});
   expect_red_left_blue_right(board_picture("inside.gltf"));
   EXPECT_TRUE(stage_->warnings().empty());
 }

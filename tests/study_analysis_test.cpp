@@ -4,7 +4,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -14,6 +13,7 @@
 #include "nade/study/figure.h"
 #include "nade/study/participant.h"
 #include "nade/study/report.h"
+#include "support/files.h"
 #include "support/scratch_folder.h"
 
 namespace nade::study {
@@ -25,11 +25,6 @@ using Json = nlohmann::json;
 /// says about them.
 constexpr const char* kStudy = NADE_TEST_DATA_DIR "/simulated_study.csv";
 constexpr const char* kSaidByR = NADE_TEST_DATA_DIR "/simulated_study_r.json";
-
-std::string read_whole(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::istringstream stream(text);
@@ -47,7 +42,7 @@ class StudyAnalysis : public test::FolderTest {
  protected:
   std::string write(const std::string& name, const std::string& text) const {
     std::filesystem::create_directories(std::filesystem::path(path(name)).parent_path());
-    std::ofstream(path(name), std::ios::binary) << text;
+    test::write_file(path(name), text);
     return path(name);
   }
   /// The one-sentence error of a table that cannot be read.
@@ -108,7 +103,7 @@ void expect_family(const Json& expected, const std::vector<Comparison>& found) {
 }
 
 TEST_F(StudyAnalysis, StoredStudyEqualsR) {
-  const Json said = Json::parse(read_whole(kSaidByR));
+  const Json said = Json::parse(test::read_file(kSaidByR));
   const StudyData data = stored_study();
   EXPECT_EQ(data.participants.size(), 15U);
   EXPECT_EQ(data.answers.size(), 270U);
@@ -259,7 +254,7 @@ TEST_F(StudyAnalysis, AveragesThatAreEqualAreTies) {
 
 TEST_F(StudyAnalysis, WhoLacksAnAnswerIsLeftOutAndNamed) {
   std::string text;
-  for (const std::string& line : lines_of(read_whole(kStudy))) {
+  for (const std::string& line : lines_of(test::read_file(kStudy))) {
     if (line.rfind("S07,", 0) == 0 && has(line, ",dog,nade,")) continue;
     text += line + "\n";
   }
@@ -403,10 +398,10 @@ TEST_F(StudyAnalysis, FiguresAreDrawnByGnuplot) {
   EXPECT_EQ(drawn->files, (std::vector<std::string>{"fig3_by_object.svg", "fig3_by_object.pdf",
                                                     "fig3_by_object.png"}));
   const std::string stem = path("a folder's") + "/fig3_by_object";
-  EXPECT_EQ(read_whole(stem + ".png").substr(1, 3), "PNG");
-  EXPECT_EQ(read_whole(stem + ".pdf").substr(0, 4), "%PDF");
-  EXPECT_TRUE(has(read_whole(stem + ".svg"), "SIMULATED"));
-  EXPECT_TRUE(has(read_whole(stem + ".svg"), "with correction"));
+  EXPECT_EQ(test::read_file(stem + ".png").substr(1, 3), "PNG");
+  EXPECT_EQ(test::read_file(stem + ".pdf").substr(0, 4), "%PDF");
+  EXPECT_TRUE(has(test::read_file(stem + ".svg"), "SIMULATED"));
+  EXPECT_TRUE(has(test::read_file(stem + ".svg"), "with correction"));
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path("a folder's")), {}), 5);
 }
 
@@ -422,8 +417,8 @@ TEST_F(StudyAnalysis, WithoutGnuplotScriptAndDataAreThere) {
   EXPECT_TRUE(drawn->files.empty());
   EXPECT_TRUE(has(drawn->problem, "gnuplot-nox")) << drawn->problem;
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path("out")), {}), 2);
-  EXPECT_FALSE(read_whole(path("out/fig3.gp")).empty());
-  EXPECT_TRUE(has(read_whole(path("out/fig3.dat")), "SIMULATED"));
+  EXPECT_FALSE(test::read_file(path("out/fig3.gp")).empty());
+  EXPECT_TRUE(has(test::read_file(path("out/fig3.dat")), "SIMULATED"));
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ const std::string kStored = NADE_TEST_DATA_DIR "/webxr_actions.json";
 
 class WebxrImport : public test::RecordingFiles {
  protected:
-  [[nodiscard]] static json stored() { return json::parse(content_of(kStored)); }
+  [[nodiscard]] static json stored() { return json::parse(test::read_file(kStored)); }
   [[nodiscard]] WholeRecording read(const json& recording) const {
     // The order of the members matters, and json sorts them.
     nlohmann::ordered_json ordered;
@@ -179,7 +179,7 @@ TEST_F(WebxrImport, OddHandsAndTimesAreLeftOutAndCounted) {
 }
 
 TEST_F(WebxrImport, CutOffFileIsReadToItsLastWholeFrame) {
-  const std::string text = content_of(kStored);
+  const std::string text = test::read_file(kStored);
   const WholeRecording whole = read_whole(given("cut.json", text.substr(0, text.size() - 500)));
   EXPECT_EQ(whole.error, "");
   EXPECT_EQ(whole.frames.size(), 5u);

@@ -5,8 +5,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -15,6 +13,7 @@
 #include <vector>
 
 #include "nade/mesh.h"
+#include "support/files.h"
 
 namespace nade::test {
 
@@ -177,9 +176,8 @@ inline std::vector<std::array<double, 3>> exported_triples(const std::string& te
 
 /// The npm package bunny's index.js, scaled so that the bunny is `height_m` high.
 inline std::optional<TriangleSoup> load_bunny(const std::string& path, float height_m = 0.25F) {
-  std::ifstream file(path);
-  if (!file) return std::nullopt;
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string text = read_file(path);
+  if (text.empty()) return std::nullopt;
   TriangleSoup soup;
   Eigen::AlignedBox3f box;
   for (const auto& [x, y, z] : exported_triples(text, "positions")) {

@@ -4,13 +4,12 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "nade/io/recording.h"
+#include "support/files.h"
 #include "support/scratch_folder.h"
 
 namespace nade::test {
@@ -19,12 +18,8 @@ namespace nade::test {
 class RecordingFiles : public FolderTest {
  protected:
   [[nodiscard]] std::string given(const std::string& name, const std::string& content) const {
-    std::ofstream(path(name), std::ios::binary) << content;
+    write_file(path(name), content);
     return path(name);
-  }
-  [[nodiscard]] static std::string content_of(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
   }
   [[nodiscard]] std::vector<std::string> files() const {
     std::vector<std::string> names;

@@ -5,11 +5,11 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <memory>
 #include <string>
 
 #include "nade/study/run.h"
+#include "support/files.h"
 #include "support/sample_hand.h"
 #include "support/scratch_folder.h"
 
@@ -21,11 +21,10 @@ constexpr std::int64_t kSecond_ns = 1'000'000'000;
 class StudyFiles : public FolderTest {
  protected:
   [[nodiscard]] std::string content_of(const std::string& name) const {
-    std::ifstream file(path(name), std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
+    return read_file(path(name));
   }
   void write(const std::string& name, const std::string& content) const {
-    std::ofstream(path(name), std::ios::binary) << content;
+    write_file(path(name), content);
   }
   void add(const std::string& name, const std::string& content) const {
     std::ofstream(path(name), std::ios::binary | std::ios::app) << content;
