@@ -103,6 +103,15 @@ TEST(GltfMesh, IsShownAsItStandsBeforeAnyAnimation) {
   expect_at(mesh.soup.vertices[2], {1, 1, -1});
 }
 
+TEST(GltfMesh, CompressedFilesAreRefusedByName) {
+  GltfFile file("nade_compressed");
+  file.gltf["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+  const auto mesh = load_mesh(file.write());
+  ASSERT_FALSE(mesh.ok());
+  EXPECT_TRUE(mesh.error().message.ends_with(
+      "compressed by KHR_draco_mesh_compression, which is not read"));
+}
+
 TEST(GltfMesh, OneMeshNamedWithoutEnd) {
   GltfFile file("nade_many");
   Json nodes = Json::array();

@@ -15,6 +15,7 @@
 #include "nade/eval/synth.h"
 #include "nade/io/hand_file.h"
 #include "support/files.h"
+#include "support/gltf_file.h"
 #include "support/scratch_folder.h"
 #include "support/stored_picture.h"
 
@@ -554,6 +555,25 @@ TEST_F(StageFiles, MissingTextureIsSaidAndTheObjectDrawn) {
   ASSERT_EQ(stage_->warnings().size(), 1u);
   EXPECT_NE(stage_->warnings().front().find("nowhere.png"), std::string::npos);
   EXPECT_GT(red_share(image, kWidth / 2, kHeight / 2), 0.65);
+}
+
+/// A skin stands where its joints are, also before anything moves.
+TEST_F(StageFiles, SkinnedFileIsDrawnWhereItIsFelt) {
+  test::GltfFile file("nade_drawn_skin");
+  file.gltf["nodes"] = {{{"mesh", 0}, {"skin", 0}}, {{"translation", {0, 0.3, 0}}}};
+  file.gltf["scenes"][0]["nodes"] = {0, 1};
+  file.gltf["skins"] = {{{"joints", {1}}}};
+  nlohmann::json& attributes = file.gltf["meshes"][0]["primitives"][0]["attributes"];
+  attributes["JOINTS_0"] = file.add_bytes(std::vector<std::uint8_t>(12, 0), 5121, "VEC4", 3);
+  attributes["WEIGHTS_0"] = file.add({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4");
+  attributes["NORMAL"] = file.add({0, 1, 0, 0, 1, 0, 0, 1, 0}, "VEC3");
+  show(file.write());
+  const auto felt = object().first_hit({{0.1, 2.0, -0.1}, -Vec3::UnitY(), 3.0});
+  ASSERT_TRUE(felt.has_value());
+  EXPECT_NEAR(felt->distance, 1.7, 1e-6);
+  const DepthMap drawn =
+      renderer_->depths(stage_->object_only(), above(2.0), kWidth, kHeight, Faces::front);
+  EXPECT_NEAR(*std::min_element(drawn.depth_m.begin(), drawn.depth_m.end()), 1.7, 1e-3);
 }
 
 TEST_F(StageFiles, MeshesWithoutMaterialsAreDrawn) {

@@ -267,11 +267,14 @@ DressedObject dress_soup(const TriangleSoup& soup) {
   return {{std::move(mesh)}, {}};
 }
 
-bool has_materials(const std::string& path) {
+/// A mesh file in its own materials, or, where its format has none, in one colour.
+Result<DressedObject> dress_file(const std::string& path, const LoadedObject& object) {
   std::string ending = std::filesystem::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending == ".glb" || ending == ".gltf" || ending == ".obj" || ending == ".ply";
+  if (ending == ".glb" || ending == ".gltf") return load_gltf_meshes(path);
+  if (ending == ".obj" || ending == ".ply") return load_plain_meshes(path);
+  return dress_soup(object.soup.value_or(TriangleSoup{}));
 }
 
 /// Most of the triangles wound against the solid's own surface: turned, as the surface was.
@@ -312,8 +315,7 @@ Result<DressedObject> dress(const LoadedObject& object, Weave weave) {
   }
   const bool is_dog = object.spec == "dog" || object.spec.starts_with("dog:");
   const std::string& path = object.file.empty() ? object.spec : object.file;
-  if (!has_materials(path)) return dress_soup(object.soup.value_or(TriangleSoup{}));
-  Result<DressedObject> dressed = load_drawn_meshes(path);
+  Result<DressedObject> dressed = dress_file(path, object);
   if (!dressed) return dressed.error();
   for (DrawnMesh& mesh : dressed->meshes) face_outward(object, mesh);
   if (is_dog) groom(*dressed);

@@ -22,9 +22,10 @@ enum class Weave : std::uint8_t { coarse, fine };
 /// file in its own materials.
 [[nodiscard]] Result<DressedObject> dress(const LoadedObject& object, Weave weave = Weave::coarse);
 
-/// The meshes of a .glb, .gltf, .obj or .ply file that `load_mesh` could read, each with its
-/// material, colours and texture, in the frame that `load_mesh` gives.
-[[nodiscard]] Result<DressedObject> load_drawn_meshes(const std::string& path);
+/// The meshes of a file that `load_mesh` could read, each with its material, colours and texture,
+/// in the frame that `load_mesh` gives: of a .glb or .gltf file, of an .obj or .ply file.
+[[nodiscard]] Result<DressedObject> load_gltf_meshes(const std::string& path);
+[[nodiscard]] Result<DressedObject> load_plain_meshes(const std::string& path);
 
 /// Gives each corner a normal of its own: the mean, by angle, of the faces that meet there at no
 /// more than 40 degrees, as MeshSurface smooths them.

@@ -1,9 +1,7 @@
-#include <assimp/GltfMaterial.h>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
-#include <stb/stb_image.h>
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
@@ -11,7 +9,6 @@
 #include <exception>
 #include <filesystem>
 #include <map>
-#include <optional>
 
 #include "object_look.h"
 
@@ -24,49 +21,15 @@ namespace fs = std::filesystem;
 struct Source {
   const aiScene& scene;
   std::string path;
-  bool gltf = false;  ///< colours are linear light
   std::map<std::string, std::shared_ptr<const Image>> textures{};
   std::uint32_t vertices = 0;  ///< so far, as `load_mesh` counts them
   DressedObject dressed{};
 };
 
-Image from_texels(const aiTexture& texture) {
-  Image image = Image::blank(static_cast<int>(texture.mWidth), static_cast<int>(texture.mHeight));
-  const std::size_t count = std::size_t{texture.mWidth} * texture.mHeight;
-  for (std::size_t i = 0; i < count; ++i) {
-    const aiTexel& texel = texture.pcData[i];
-    const std::array<std::uint8_t, 4> rgba{texel.r, texel.g, texel.b, texel.a};
-    std::copy(rgba.begin(), rgba.end(), image.rgba.begin() + static_cast<std::ptrdiff_t>(4 * i));
-  }
-  return image;
-}
-
-/// A picture that lies in the file itself.
-std::optional<Image> decode(const aiTexture& texture) {
-  if (texture.mHeight != 0) return from_texels(texture);
-  Image image;
-  stbi_uc* const pixels = stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(texture.pcData),
-                                                static_cast<int>(texture.mWidth), &image.width,
-                                                &image.height, nullptr, 4);
-  if (pixels == nullptr) return std::nullopt;
-  image.rgba.assign(pixels, pixels + 4 * std::ptrdiff_t{image.width} * image.height);
-  stbi_image_free(pixels);
-  return image;
-}
-
 std::shared_ptr<const Image> load_texture(const std::string& name, Source& source) {
   const auto known = source.textures.find(name);
   if (known != source.textures.end()) return known->second;
   std::shared_ptr<const Image>& texture = source.textures[name];
-  if (const aiTexture* const embedded = source.scene.GetEmbeddedTexture(name.c_str())) {
-    if (std::optional<Image> image = decode(*embedded)) {
-      texture = std::make_shared<const Image>(std::move(*image));
-    } else {
-      source.dressed.warnings.push_back(fmt::format(
-          "{}: texture {}: expected a PNG or JPEG picture, so it is not shown", source.path, name));
-    }
-    return texture;
-  }
   std::string file = name;
   std::replace(file.begin(), file.end(), '\\', '/');
   const Result<Image> image = load_image((fs::path(source.path).parent_path() / file).string());
@@ -79,10 +42,7 @@ std::shared_ptr<const Image> load_texture(const std::string& name, Source& sourc
   return texture;
 }
 
-Color color_of(const aiColor4D& color, const Source& source) {
-  const Color values(color.r, color.g, color.b);
-  return source.gltf ? values : from_srgb(values);
-}
+Color color_of(const aiColor4D& color) { return from_srgb({color.r, color.g, color.b}); }
 
 void read_material(const aiMaterial& from, Source& source, DrawnMesh& mesh) {
   Material& material = mesh.material;
@@ -90,7 +50,7 @@ void read_material(const aiMaterial& from, Source& source, DrawnMesh& mesh) {
   if (from.Get(AI_MATKEY_BASE_COLOR, color) != AI_SUCCESS) {
     from.Get(AI_MATKEY_COLOR_DIFFUSE, color);
   }
-  material.base_color = color_of(color, source);
+  material.base_color = color_of(color);
   float shininess = 0.0F;
   if (from.Get(AI_MATKEY_ROUGHNESS_FACTOR, material.roughness) != AI_SUCCESS &&
       from.Get(AI_MATKEY_SHININESS, shininess) == AI_SUCCESS && shininess > 0.0F) {
@@ -107,30 +67,18 @@ void read_material(const aiMaterial& from, Source& source, DrawnMesh& mesh) {
   }
   mesh.texture = load_texture(texture.C_Str(), source);
   // An .obj file's Kd is often 0 or grey beside a texture that is the whole colour.
-  if (mesh.texture != nullptr && !source.gltf) material.base_color = Color::Ones();
+  if (mesh.texture != nullptr) material.base_color = Color::Ones();
 }
 
-Eigen::Matrix4f matrix_of(const aiMatrix4x4& m) {
-  Eigen::Matrix4f matrix;
-  matrix << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2,
-      m.d3, m.d4;
-  return matrix;
-}
-
-void read_vertices(const aiMesh& from, const Eigen::Matrix4f& to_root, Source& source,
-                   DrawnMesh& mesh) {
-  const Eigen::Matrix3f linear = to_root.topLeftCorner<3, 3>();
-  const Eigen::Matrix3f for_normals = linear.inverse().transpose();
+void read_vertices(const aiMesh& from, Source& source, DrawnMesh& mesh) {
   for (unsigned i = 0; i < from.mNumVertices; ++i) {
-    const aiVector3D& v = from.mVertices[i];
-    mesh.positions.emplace_back(linear * Eigen::Vector3f(v.x, v.y, v.z) +
-                                to_root.topRightCorner<3, 1>());
+    mesh.positions.emplace_back(from.mVertices[i].x, from.mVertices[i].y, from.mVertices[i].z);
     mesh.sources.push_back(source.vertices++);
     if (from.HasNormals()) {
       const aiVector3D& n = from.mNormals[i];
-      mesh.normals.emplace_back((for_normals * Eigen::Vector3f(n.x, n.y, n.z)).normalized());
+      mesh.normals.emplace_back(Eigen::Vector3f(n.x, n.y, n.z).normalized());
     }
-    if (from.HasVertexColors(0)) mesh.colors.push_back(color_of(from.mColors[0][i], source));
+    if (from.HasVertexColors(0)) mesh.colors.push_back(color_of(from.mColors[0][i]));
     if (from.HasTextureCoords(0)) {
       // The importer counts from the bottom of the picture.
       mesh.texcoords.emplace_back(from.mTextureCoords[0][i].x, 1.0F - from.mTextureCoords[0][i].y);
@@ -138,21 +86,20 @@ void read_vertices(const aiMesh& from, const Eigen::Matrix4f& to_root, Source& s
   }
 }
 
-void append(const aiMesh& from, const Eigen::Matrix4f& to_root, Source& source) {
+void append(const aiMesh& from, Source& source) {
   DrawnMesh mesh;
-  read_vertices(from, to_root, source, mesh);
-  const unsigned second = to_root.topLeftCorner<3, 3>().determinant() < 0.0F ? 2 : 1;
+  read_vertices(from, source, mesh);
   for (unsigned f = 0; f < from.mNumFaces; ++f) {
     const aiFace& face = from.mFaces[f];
     if (face.mNumIndices != 3) continue;
-    mesh.triangles.push_back({face.mIndices[0], face.mIndices[second], face.mIndices[3 - second]});
+    mesh.triangles.push_back({face.mIndices[0], face.mIndices[1], face.mIndices[2]});
   }
   if (mesh.triangles.empty()) return;
   if (from.mMaterialIndex < source.scene.mNumMaterials) {
     read_material(*source.scene.mMaterials[from.mMaterialIndex], source, mesh);
   }
   // Its own colours are the whole colour where a file has no material to multiply them with.
-  if (!mesh.colors.empty() && !source.gltf) mesh.material.base_color = Color::Ones();
+  if (!mesh.colors.empty()) mesh.material.base_color = Color::Ones();
   if (mesh.texture == nullptr || mesh.texcoords.empty()) {
     mesh.texture.reset();
     mesh.texcoords.clear();
@@ -163,29 +110,9 @@ void append(const aiMesh& from, const Eigen::Matrix4f& to_root, Source& source) 
   source.dressed.meshes.push_back(std::move(mesh));
 }
 
-void flatten(Source& source) {
-  struct PlacedNode {
-    const aiNode* node;
-    Eigen::Matrix4f to_root;
-  };
-  const aiNode* const root = source.scene.mRootNode;
-  std::vector<PlacedNode> open{{root, matrix_of(root->mTransformation)}};
-  while (!open.empty()) {
-    const PlacedNode at = open.back();
-    open.pop_back();
-    for (unsigned i = 0; i < at.node->mNumMeshes; ++i) {
-      append(*source.scene.mMeshes[at.node->mMeshes[i]], at.to_root, source);
-    }
-    for (unsigned i = at.node->mNumChildren; i-- > 0;) {
-      const aiNode* const child = at.node->mChildren[i];
-      open.push_back({child, at.to_root * matrix_of(child->mTransformation)});
-    }
-  }
-}
-
 }  // namespace
 
-Result<DressedObject> load_drawn_meshes(const std::string& path) {
+Result<DressedObject> load_plain_meshes(const std::string& path) {
   const auto unreadable = [&path](const char* why) {
     return Error{ErrorCode::unreadable, fmt::format("{}: cannot be drawn: {}", path, why)};
   };
@@ -195,9 +122,8 @@ Result<DressedObject> load_drawn_meshes(const std::string& path) {
     if (scene == nullptr || scene->mRootNode == nullptr) {
       return unreadable(importer.GetErrorString());
     }
-    const std::string ending = fs::path(path).extension().string();
-    Source source{*scene, path, ending != ".obj" && ending != ".OBJ" && ending != ".ply"};
-    flatten(source);
+    Source source{*scene, path};
+    for (unsigned m = 0; m < scene->mNumMeshes; ++m) append(*scene->mMeshes[m], source);
     if (source.dressed.meshes.empty()) return unreadable("expected triangles, found none");
     return std::move(source.dressed);
   } catch (const std::exception& failure) {

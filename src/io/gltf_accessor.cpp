@@ -38,9 +38,12 @@ std::string first_line(const std::string& text) {
   return line.empty() ? "expected a whole .glb or .gltf file" : line;
 }
 
-/// Textures are not needed, so a hand loads without them.
-bool skip_image(tinygltf::Image*, const int, std::string*, std::string*, int, int,
-                const unsigned char*, int, void*) {
+/// What cannot be decoded is no reason to refuse a file, so that is for later, if at all.
+bool take_picture(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
+                  const unsigned char* bytes, int size, void* pictures) {
+  if (*static_cast<const Pictures*>(pictures) == Pictures::kept && size > 0) {
+    image->image.assign(bytes, bytes + size);
+  }
   return true;
 }
 
@@ -244,7 +247,7 @@ Result<std::vector<Number>> read_numbers(const AccessorRef& ref, int components,
 
 }  // namespace
 
-Result<tinygltf::Model> read_model(const std::string& path) {
+Result<tinygltf::Model> read_model(const std::string& path, Pictures pictures) {
   Result<std::string> bytes = read_bytes(path);
   if (!bytes) return bytes.error();
   if (bytes->size() > std::numeric_limits<unsigned int>::max()) {
@@ -253,7 +256,7 @@ Result<tinygltf::Model> read_model(const std::string& path) {
   const auto length = static_cast<unsigned int>(bytes->size());
   const std::string directory = std::filesystem::path(path).parent_path().string();
   tinygltf::TinyGLTF loader;
-  loader.SetImageLoader(skip_image, nullptr);
+  loader.SetImageLoader(take_picture, &pictures);
   tinygltf::Model model;
   std::string problem;
   std::string ignored;
@@ -273,6 +276,11 @@ Result<tinygltf::Model> read_model(const std::string& path) {
   if (!read) {
     return Error{ErrorCode::bad_format,
                  fmt::format("{}: not a readable glTF file: {}", path, first_line(problem))};
+  }
+  for (const std::string& needed : model.extensionsRequired) {
+    if (!needed.ends_with("_compression")) continue;
+    return Error{ErrorCode::bad_format,
+                 fmt::format("{}: compressed by {}, which is not read", path, needed)};
   }
   return model;
 }

@@ -10,8 +10,12 @@
 
 namespace nade::gltf {
 
-/// Reads a .glb or .gltf file, told apart by content; images are left out.
-[[nodiscard]] Result<tinygltf::Model> read_model(const std::string& path);
+/// A picture's bytes as the file has them, PNG or JPEG, in its `Image::image`; or none.
+enum class Pictures : std::uint8_t { left_out, kept };
+
+/// Reads a .glb or .gltf file, told apart by content.
+[[nodiscard]] Result<tinygltf::Model> read_model(const std::string& path,
+                                                 Pictures pictures = Pictures::left_out);
 
 /// What of a model is being read, for the sentence of an error.
 struct AccessorRef {

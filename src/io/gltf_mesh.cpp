@@ -27,18 +27,6 @@ std::optional<MeshPlace> place_of(const tinygltf::Node& node, const Eigen::Matri
   return place;
 }
 
-void append_triangles(const gltf::Rig& rig, const gltf::Piece& piece, std::uint32_t first,
-                      TriangleSoup& soup) {
-  // A mirroring transform turns triangles inside out. Bones have taken the place of a skin's node.
-  const bool mirrored =
-      !piece.skin && rig.worlds[piece.node].topLeftCorner<3, 3>().determinant() < 0.0;
-  const std::size_t second = mirrored ? 2 : 1;
-  for (const auto& corners : piece.triangles) {
-    soup.triangles.push_back(
-        {first + corners[0], first + corners[second], first + corners[3 - second]});
-  }
-}
-
 }  // namespace
 
 Result<MeshFile> read_gltf(const std::string& path) {
@@ -51,7 +39,9 @@ Result<MeshFile> read_gltf(const std::string& path) {
   gltf::pose_vertices(*rig, file.soup.vertices);
   std::uint32_t first = 0;
   for (const gltf::Piece& piece : rig->pieces) {
-    append_triangles(*rig, piece, first, file.soup);
+    for (const auto& [a, b, c] : gltf::triangles_of(*rig, piece)) {
+      file.soup.triangles.push_back({first + a, first + b, first + c});
+    }
     first += static_cast<std::uint32_t>(piece.positions.size());
   }
   for (std::size_t i = 0; i < rig->nodes.size(); ++i) {

@@ -1,6 +1,7 @@
 #include "gltf_rig.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "nade/assert.h"
 
@@ -61,6 +62,15 @@ std::size_t Rig::vertex_count() const {
   std::size_t count = 0;
   for (const Piece& piece : pieces) count += piece.positions.size();
   return count;
+}
+
+std::vector<std::array<std::uint32_t, 3>> triangles_of(const Rig& rig, const Piece& piece) {
+  auto triangles = piece.triangles;
+  const bool mirrored = rig.worlds[piece.node].topLeftCorner<3, 3>().determinant() < 0.0;
+  // Bones have taken the place of a skin's node.
+  if (piece.skin || !mirrored) return triangles;
+  for (auto& corners : triangles) std::swap(corners[1], corners[2]);
+  return triangles;
 }
 
 void pose_vertices(Rig& rig, std::span<Vec3f> vertices) noexcept {

@@ -49,6 +49,8 @@ struct Carriers {
 /// One primitive where one node has it.
 struct Piece {
   std::size_t node = 0;
+  std::size_t mesh = 0;
+  std::size_t primitive = 0;  ///< of the mesh
   std::optional<std::size_t> skin;
   std::vector<Eigen::Vector3f> positions;
   std::vector<std::vector<Eigen::Vector3f>> targets;    ///< what each morph target adds
@@ -66,6 +68,10 @@ struct Rig {
 
   [[nodiscard]] std::size_t vertex_count() const;
 };
+
+/// A piece's triangles as they are seen: a mirroring node turns them inside out. Of a posed rig.
+[[nodiscard]] std::vector<std::array<std::uint32_t, 3>> triangles_of(const Rig& rig,
+                                                                     const Piece& piece);
 
 /// Where a rig's nodes, bones and morph weights put its vertices, piece after piece; `vertices`
 /// holds `vertex_count()`. Does not allocate.

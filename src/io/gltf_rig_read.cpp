@@ -161,10 +161,12 @@ class Reader {
       return bad_file(path_, fmt::format("node {}: no such mesh {}", node, index));
     }
     const tinygltf::Mesh& mesh = model_.meshes[index];
-    for (const tinygltf::Primitive& primitive : mesh.primitives) {
+    for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
       Piece piece;
       piece.node = node;
-      const Status status = read_primitive(primitive, piece);
+      piece.mesh = index;
+      piece.primitive = i;
+      const Status status = read_primitive(mesh.primitives[i], piece);
       if (!status) return status;
       vertices_ += piece.positions.size();
       if (rig_.pieces.size() == kMostPieces || vertices_ > kMostVertices) {

@@ -1,0 +1,172 @@
+#include <fmt/format.h>
+#include <stb/stb_image.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "gltf_rig.h"
+#include "object_look.h"
+
+// Based on: The Khronos Group. glTF 2.0 Specification. 2021 (materials; colours are linear light).
+
+namespace nade::draw {
+namespace {
+
+using Vec3f = Eigen::Vector3f;
+
+const Color kNoMaterial(0.7F, 0.7F, 0.7F);
+
+/// Of an attribute, `width` numbers a vertex; none where it is absent, or too short.
+std::vector<float> attribute(const tinygltf::Model& model, const std::string& path,
+                             const gltf::Piece& piece, const std::string& name, int width) {
+  const auto& attributes = model.meshes[piece.mesh].primitives[piece.primitive].attributes;
+  const auto found = attributes.find(name);
+  if (found == attributes.end()) return {};
+  auto numbers = gltf::read_floats({model, path, name.c_str(), found->second}, width);
+  const std::size_t needed = static_cast<std::size_t>(width) * piece.positions.size();
+  return numbers.ok() && numbers->size() == needed ? std::move(*numbers) : std::vector<float>();
+}
+
+Vec3f vector_at(const std::vector<float>& numbers, std::size_t i, std::size_t width = 3) {
+  return {numbers[width * i], numbers[width * i + 1], numbers[width * i + 2]};
+}
+
+/// PNG or JPEG.
+std::optional<Image> decode_picture(const std::vector<unsigned char>& bytes) {
+  Image image;
+  stbi_uc* const pixels = stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()),
+                                                &image.width, &image.height, nullptr, 4);
+  if (pixels == nullptr) return std::nullopt;
+  image.rgba.assign(pixels, pixels + 4 * std::ptrdiff_t{image.width} * image.height);
+  stbi_image_free(pixels);
+  return image;
+}
+
+/// A file while it is taken over.
+class Wardrobe {
+ public:
+  Wardrobe(const tinygltf::Model& model, const std::string& path, gltf::Rig rig)
+      : model_(model), path_(path), rig_(std::move(rig)) {}
+
+  DressedObject dressed() {
+    std::vector<Vec3f> at_normals(rig_.vertex_count());
+    std::vector<Vec3f> vertices(rig_.vertex_count());
+    gltf::Rig raised = rig_;
+    for (gltf::Piece& piece : raised.pieces) {
+      const std::vector<float> normals = attribute(model_, path_, piece, "NORMAL", 3);
+      for (std::size_t i = 0; i < normals.size() / 3; ++i) {
+        piece.positions[i] += vector_at(normals, i);
+      }
+    }
+    gltf::pose_vertices(raised, at_normals);
+    gltf::pose_vertices(rig_, vertices);
+    std::uint32_t first = 0;
+    for (const gltf::Piece& piece : rig_.pieces) {
+      add(piece, first, vertices, at_normals);
+      first += static_cast<std::uint32_t>(piece.positions.size());
+    }
+    return std::move(dressed_);
+  }
+
+ private:
+  void add(const gltf::Piece& piece, std::uint32_t first, const std::vector<Vec3f>& vertices,
+           const std::vector<Vec3f>& at_normals) {
+    DrawnMesh mesh;
+    mesh.triangles = gltf::triangles_of(rig_, piece);
+    if (mesh.triangles.empty()) return;
+    const Eigen::Matrix3f linear = rig_.worlds[piece.node].topLeftCorner<3, 3>().cast<float>();
+    const Eigen::Matrix3f for_normals = linear.inverse().transpose();
+    const std::vector<float> normals = attribute(model_, path_, piece, "NORMAL", 3);
+    for (std::uint32_t i = 0; i < piece.positions.size(); ++i) {
+      mesh.positions.push_back(vertices[first + i]);
+      mesh.sources.push_back(first + i);
+      if (normals.empty()) continue;
+      // Bones carry a normal as they carry what lies between two points.
+      const Vec3f normal = piece.skin ? Vec3f(at_normals[first + i] - vertices[first + i])
+                                      : Vec3f(for_normals * vector_at(normals, i));
+      mesh.normals.push_back(normal.normalized());
+    }
+    paint(piece, mesh);
+    const bool usable = std::all_of(mesh.normals.begin(), mesh.normals.end(),
+                                    [](const Vec3f& normal) { return normal.allFinite(); });
+    if (mesh.normals.empty() || !usable) compute_creased_normals(mesh);
+    dressed_.meshes.push_back(std::move(mesh));
+  }
+
+  void paint(const gltf::Piece& piece, DrawnMesh& mesh) {
+    for (const int width : {3, 4}) {
+      const std::vector<float> colors = attribute(model_, path_, piece, "COLOR_0", width);
+      for (std::size_t i = 0; i < colors.size() / static_cast<std::size_t>(width); ++i) {
+        mesh.colors.emplace_back(vector_at(colors, i, static_cast<std::size_t>(width)));
+      }
+    }
+    const int index = model_.meshes[piece.mesh].primitives[piece.primitive].material;
+    if (index < 0 || static_cast<std::size_t>(index) >= model_.materials.size()) {
+      mesh.material.base_color = mesh.colors.empty() ? kNoMaterial : Color(Color::Ones());
+      return;
+    }
+    const auto& from = model_.materials[static_cast<std::size_t>(index)].pbrMetallicRoughness;
+    if (from.baseColorFactor.size() >= 3) {
+      mesh.material.base_color =
+          Eigen::Map<const Eigen::Vector3d>(from.baseColorFactor.data()).cast<float>();
+    }
+    mesh.material.roughness = std::clamp(static_cast<float>(from.roughnessFactor), 0.05F, 1.0F);
+    mesh.material.metalness = std::clamp(static_cast<float>(from.metallicFactor), 0.0F, 1.0F);
+    const std::vector<float> places = attribute(
+        model_, path_, piece, fmt::format("TEXCOORD_{}", from.baseColorTexture.texCoord), 2);
+    if (places.empty()) return;
+    mesh.texture = texture(from.baseColorTexture.index);
+    if (mesh.texture == nullptr) return;
+    for (std::size_t i = 0; i + 1 < places.size(); i += 2) {
+      mesh.texcoords.emplace_back(places[i], places[i + 1]);
+    }
+  }
+
+  std::shared_ptr<const Image> texture(int index) {
+    if (index < 0 || static_cast<std::size_t>(index) >= model_.textures.size()) return nullptr;
+    const int source = model_.textures[static_cast<std::size_t>(index)].source;
+    if (source < 0 || static_cast<std::size_t>(source) >= model_.images.size()) return nullptr;
+    const auto [known, is_new] = textures_.try_emplace(source);
+    if (is_new) known->second = decoded(source);
+    return known->second;
+  }
+
+  std::shared_ptr<const Image> decoded(int source) {
+    const tinygltf::Image& from = model_.images[static_cast<std::size_t>(source)];
+    if (from.image.empty() && !from.uri.empty()) {
+      const auto beside = std::filesystem::path(path_).parent_path() / from.uri;
+      dressed_.warnings.push_back(
+          fmt::format("{}: its texture is not shown: {}: no such file", path_, beside.string()));
+      return nullptr;
+    }
+    std::optional<Image> image = decode_picture(from.image);
+    if (image) return std::make_shared<const Image>(std::move(*image));
+    dressed_.warnings.push_back(fmt::format(
+        "{}: texture {}: expected a PNG or JPEG picture, so it is not shown", path_, source));
+    return nullptr;
+  }
+
+  const tinygltf::Model& model_;
+  const std::string& path_;
+  gltf::Rig rig_;
+  std::map<int, std::shared_ptr<const Image>> textures_;
+  DressedObject dressed_;
+};
+
+}  // namespace
+
+Result<DressedObject> load_gltf_meshes(const std::string& path) {
+  const Result<tinygltf::Model> model = gltf::read_model(path, gltf::Pictures::kept);
+  if (!model) return model.error();
+  Result<gltf::Rig> rig = gltf::read_rig(*model, path);
+  if (!rig) return rig.error();
+  DressedObject dressed = Wardrobe(*model, path, std::move(*rig)).dressed();
+  if (!dressed.meshes.empty()) return dressed;
+  return Error{ErrorCode::unreadable,
+               fmt::format("{}: cannot be drawn: expected triangles, found none", path)};
+}
+
+}  // namespace nade::draw
