@@ -557,6 +557,16 @@ TEST_F(StageFiles, MissingTextureIsSaidAndTheObjectDrawn) {
   EXPECT_GT(red_share(image, kWidth / 2, kHeight / 2), 0.65);
 }
 
+TEST_F(StageFiles, MissingTextureOfAGltfFileIsSaidAndTheObjectDrawn) {
+  write_gltf("lost", {{"uri", "nowhere.png"}});
+  show(path("lost.gltf"));
+  ASSERT_EQ(stage_->warnings().size(), 1u);
+  EXPECT_NE(stage_->warnings().front().find("nowhere.png: "), std::string::npos);
+  const DepthMap map =
+      renderer_->depths(stage_->object_only(), above(0.5), kWidth, kHeight, Faces::front);
+  EXPECT_GT(count_covered(map), 3000u);
+}
+
 /// A skin stands where its joints are, also before anything moves.
 TEST_F(StageFiles, SkinnedFileIsDrawnWhereItIsFelt) {
   test::GltfFile file("nade_drawn_skin");

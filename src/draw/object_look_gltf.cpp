@@ -54,32 +54,32 @@ class Wardrobe {
   DressedObject dressed() {
     std::vector<Vec3f> at_normals(rig_.vertex_count());
     std::vector<Vec3f> vertices(rig_.vertex_count());
+    std::vector<std::vector<float>> normals;
     gltf::Rig raised = rig_;
     for (gltf::Piece& piece : raised.pieces) {
-      const std::vector<float> normals = attribute(model_, path_, piece, "NORMAL", 3);
-      for (std::size_t i = 0; i < normals.size() / 3; ++i) {
-        piece.positions[i] += vector_at(normals, i);
+      normals.push_back(attribute(model_, path_, piece, "NORMAL", 3));
+      for (std::size_t i = 0; i < normals.back().size() / 3; ++i) {
+        piece.positions[i] += vector_at(normals.back(), i);
       }
     }
     gltf::pose_vertices(raised, at_normals);
     gltf::pose_vertices(rig_, vertices);
     std::uint32_t first = 0;
-    for (const gltf::Piece& piece : rig_.pieces) {
-      add(piece, first, vertices, at_normals);
-      first += static_cast<std::uint32_t>(piece.positions.size());
+    for (std::size_t p = 0; p < rig_.pieces.size(); ++p) {
+      add(rig_.pieces[p], normals[p], first, vertices, at_normals);
+      first += static_cast<std::uint32_t>(rig_.pieces[p].positions.size());
     }
     return std::move(dressed_);
   }
 
  private:
-  void add(const gltf::Piece& piece, std::uint32_t first, const std::vector<Vec3f>& vertices,
-           const std::vector<Vec3f>& at_normals) {
+  void add(const gltf::Piece& piece, const std::vector<float>& normals, std::uint32_t first,
+           const std::vector<Vec3f>& vertices, const std::vector<Vec3f>& at_normals) {
     DrawnMesh mesh;
     mesh.triangles = gltf::triangles_of(rig_, piece);
     if (mesh.triangles.empty()) return;
     const Eigen::Matrix3f linear = rig_.worlds[piece.node].topLeftCorner<3, 3>().cast<float>();
     const Eigen::Matrix3f for_normals = linear.inverse().transpose();
-    const std::vector<float> normals = attribute(model_, path_, piece, "NORMAL", 3);
     for (std::uint32_t i = 0; i < piece.positions.size(); ++i) {
       mesh.positions.push_back(vertices[first + i]);
       mesh.sources.push_back(first + i);
@@ -137,9 +137,11 @@ class Wardrobe {
   std::shared_ptr<const Image> decoded(int source) {
     const tinygltf::Image& from = model_.images[static_cast<std::size_t>(source)];
     if (from.image.empty() && !from.uri.empty()) {
-      const auto beside = std::filesystem::path(path_).parent_path() / from.uri;
+      const Result<Image> beside =
+          load_image((std::filesystem::path(path_).parent_path() / from.uri).string());
+      if (beside) return std::make_shared<const Image>(*beside);
       dressed_.warnings.push_back(
-          fmt::format("{}: its texture is not shown: {}: no such file", path_, beside.string()));
+          fmt::format("{}: its texture is not shown: {}", path_, beside.error().message));
       return nullptr;
     }
     std::optional<Image> image = decode_picture(from.image);
