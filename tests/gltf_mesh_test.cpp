@@ -50,6 +50,17 @@ TEST(GltfMesh, WithoutASceneEveryNodeIsShown) {
   expect_at(mesh.soup.vertices[3], {0, 3, 0});
 }
 
+TEST(GltfMesh, PlacesAreThoseOfTheSceneInItsOrder) {
+  GltfFile file("nade_places");
+  file.gltf["nodes"] =
+      Json::parse(R"([{"mesh":0},{"name":"place-b"},{"name":"place-hidden"},{"name":"place-a"}])");
+  file.gltf["scenes"][0]["nodes"] = {0, 3, 1};
+  const MeshFile mesh = loaded(file);
+  ASSERT_EQ(mesh.places.size(), 2U);
+  EXPECT_EQ(mesh.places[0].name, "a");
+  EXPECT_EQ(mesh.places[1].name, "b");
+}
+
 /// KHR_mesh_quantization.
 TEST(GltfMesh, WholeNumbers) {
   GltfFile file("nade_whole");

@@ -44,7 +44,7 @@ Result<MeshFile> read_gltf(const std::string& path) {
     }
     first += static_cast<std::uint32_t>(piece.positions.size());
   }
-  for (std::size_t i = 0; i < rig->nodes.size(); ++i) {
+  for (const std::size_t i : rig->shown) {
     if (auto place = place_of(model->nodes[i], rig->worlds[i])) {
       file.places.push_back(std::move(*place));
     }

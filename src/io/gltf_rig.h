@@ -62,6 +62,7 @@ struct Piece {
 struct Rig {
   std::vector<Node> nodes;
   std::vector<std::size_t> order;  ///< of the nodes, parents first
+  std::vector<std::size_t> shown;  ///< the scene's nodes, in its order
   std::vector<Skin> skins;
   std::vector<Piece> pieces;
   std::vector<Eigen::Matrix4d> worlds;  ///< room: of the nodes

@@ -145,6 +145,7 @@ class Reader {
       if (index < 0 || static_cast<std::size_t>(index) >= rig_.nodes.size()) {
         return bad_file(path_, fmt::format("scene: no such node {}", index));
       }
+      rig_.shown.push_back(static_cast<std::size_t>(index));
       const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(index)];
       if (node.mesh >= 0) {
         const Status status = read_mesh(static_cast<std::size_t>(index));
