@@ -109,7 +109,7 @@ HandCorrector::HandCorrector(const CorrectorOptions& options) : options_(options
 
 void HandCorrector::reset() noexcept {
   contact_memory_ = {};
-  for (SettleMemory& memory : settle_memory_) memory.tracked.reset();
+  for (SettleMemory& memory : settle_memory_) memory.last.tracked.reset();
   last_.reset();
   release_start_ns_.reset();
   hand_length_m_ = 0.0;
@@ -167,7 +167,7 @@ void HandCorrector::start_frame(const HandPose& tracked, std::int64_t time_ns) n
   // What was touched before a gap says nothing about where the hand comes back.
   if (last_ && seconds(last_->time_ns, time_ns) > std::max(options_.release_s, 0.1)) {
     contact_memory_ = {};
-    for (SettleMemory& memory : settle_memory_) memory.tracked.reset();
+    for (SettleMemory& memory : settle_memory_) memory.last.tracked.reset();
     last_.reset();
     release_start_ns_.reset();
   }

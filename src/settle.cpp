@@ -19,7 +19,7 @@ constexpr double kTurnStiffness = 10.0;
 constexpr double kSpinStiffness = 40.0;
 /// Base abduction, base, middle and last flexion. A finger pushed from below gives way at its
 /// knuckle and keeps its curl; a thumb gives way as a whole.
-const DigitFreedoms kFingerStiffness{4.0, 1.0, 4.0, 6.0};
+const DigitFreedoms kFingerStiffness{4.0, 1.0, 8.0, 12.0};
 const DigitFreedoms kThumbStiffness{1.0, 1.0, 2.0, 2.0};
 
 /// Skin farther than this from its plane, and than this share of what the hand has moved, does not
@@ -32,14 +32,20 @@ constexpr double kRowReachOfMotion = 0.4;
 constexpr double kShiftRate = 1.5;
 constexpr double kTurnRate = 0.6;
 constexpr double kBendRate = 0.45;
-constexpr double kFreeRate_mps = 0.012;
+constexpr double kFreeRate_mps = 0.008;
+/// And how much faster from frame to frame: so many times what the tracked hand gained on its own
+/// speed, and a little more. It may stop at once.
+constexpr double kGainRate = 1.5;
+constexpr double kFreeGain_mpss = 1.5;
 constexpr double kTurnLever_m = 0.10;
 constexpr double kBendLever_m = 0.07;
 constexpr double kWallStiffness = 1e5;
 /// Turns and bends follow with this time constant.
-constexpr double kViscosity_s = 0.015;
+constexpr double kViscosity_s = 0.025;
 /// And shifts along the surface with this.
 constexpr double kSlideTime_s = 0.05;
+/// In the air, all of a correction goes with this.
+constexpr double kReleaseTime_s = 0.03;
 /// The direction of the object's push is smoothed over this time.
 constexpr double kPushTime_s = 0.07;
 /// The drawn hand strays along the surface by no more than this share of the depth.
@@ -91,6 +97,27 @@ double reach_of(const HandFreedoms& step) {
          kBendLever_m * step.tail<kHandFreedoms - 6>().cwiseAbs().maxCoeff();
 }
 
+/// How far a joint went beyond where it would have gone on from the first two poses, at the most,
+/// if the last step took `ratio` times as long as the one before.
+double largest_gain(const HandPose& first, const HandPose& second, const HandPose& third,
+                    double ratio) {
+  double farthest_m = 0.0;
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    const Vec3 before = second.joints[i].position - first.joints[i].position;
+    const Vec3 after = third.joints[i].position - second.joints[i].position;
+    farthest_m = std::max(farthest_m, (after - ratio * before).norm());
+  }
+  return farthest_m;
+}
+
+/// Each freedom's step that takes the hand's farthest skin about so far.
+HandFreedoms steps_of(double shift_m, double turn_m, double bend_m) {
+  HandFreedoms steps = HandFreedoms::Constant(bend_m / kBendLever_m);
+  steps.head<3>().setConstant(shift_m);
+  steps.segment<3>(3).setConstant(turn_m / kTurnLever_m);
+  return steps;
+}
+
 /// Z along `normal`, X as near as can be to where the hand points; the hand's own axes where there
 /// is no normal.
 Eigen::Matrix3d surface_frame(const Vec3& normal, const Quat& palm) {
@@ -122,7 +149,7 @@ class Settling {
     const int rounds = fresh_ ? kFirstRounds : kRounds;
     for (int round = 0; round < rounds; ++round) {
       const PosedHand posed = pose_hand(model_, correction_);
-      parts_ = find_touches(search_, posed, memory_);
+      patches_ = find_touches(search_, posed, memory_);
       if (memory_.rows.empty() && is_none(correction_)) break;
       const HandFreedoms step = least_cost_step(problem());
       take_step(step);
@@ -134,6 +161,7 @@ class Settling {
 
  private:
   void start();
+  void find_motion();
   void start_outside();
   [[nodiscard]] HandFreedoms step_between(const Correction& from, const Correction& to) const;
   void take_step(const HandFreedoms& step);
@@ -142,6 +170,7 @@ class Settling {
   void find_push(const Vec3& force);
   void remember_surface_motion();
   void rub(const Vec3& stroked);
+  void remember_frame();
   SettledHand finish();
 
   const Object& object_;
@@ -152,47 +181,69 @@ class Settling {
   double seconds_;
 
   bool fresh_ = false;
-  double motion_m_ = 0.0;  ///< of the tracked hand, in the world or against the object
+  // Of the tracked hand, in the world or against the object, whichever is more.
+  double motion_m_ = 0.0;  ///< since the last frame
+  double gain_m_ = 0.0;    ///< of that, beyond what the last frame's speed would have made
+  HandFreedoms speed_ = HandFreedoms::Zero();  ///< of the correction, in such a frame
   Correction last_;
   Correction correction_;
   Vec3 push_ = Vec3::Zero();
-  PartTouches parts_{};
+  PatchTouches patches_{};
   bool touches_ = false;
 };
+
+/// How the tracked hand moves, and how the correction did.
+void Settling::find_motion() {
+  const SettledFrame& last = memory_.last;
+  const SettledFrame& before = memory_.before;
+  if (!last.tracked) return;
+  const HandPose& now = model_.tracked;
+  const Pose& object = object_.placement().pose;
+  const HandPose carried = moved(*last.tracked, object * last.object.pose.inverse());
+  motion_m_ = std::max(largest_motion(*last.tracked, now), largest_motion(carried, now));
+  if (!before.tracked) return;
+  const HandPose earlier = moved(*before.tracked, object * before.object.pose.inverse());
+  const double ratio = seconds_ / last.seconds;
+  gain_m_ = std::max(largest_gain(*before.tracked, *last.tracked, now, ratio),
+                     largest_gain(earlier, carried, now, ratio));
+}
 
 void Settling::start() {
   const Placement& placement = object_.placement();
   const std::uint64_t shape = object_.surface().shape();
   const bool same_surface = memory_.surface == &object_.surface();
-  if (!same_surface || placement.scale != memory_.object.scale || shape != memory_.shape) {
+  if (!same_surface || placement.scale != memory_.last.object.scale || shape != memory_.shape) {
     for (PadMemory& pad : memory_.pads) {
       pad.plane.reset();
       pad.clearance_m = pad.free_m = 0.0;
     }
   }
   const HandPose& tracked = model_.tracked;
-  if (memory_.tracked) {
-    const Pose object_motion = placement.pose * memory_.object.pose.inverse();
-    motion_m_ = std::max(largest_motion(*memory_.tracked, tracked),
-                         largest_motion(moved(*memory_.tracked, object_motion), tracked));
-  }
-  fresh_ = !memory_.tracked || !same_surface || motion_m_ > kTeleport_m;
+  find_motion();
+  fresh_ = !memory_.last.tracked || !same_surface || motion_m_ > kTeleport_m;
   if (fresh_) {
-    memory_.correction = {};
+    memory_.last = memory_.before = {};
     memory_.push = memory_.carried = memory_.lag = Vec3::Zero();
     memory_.geometric.setZero();
+    memory_.pulls.fill(0.0);
     memory_.height_m = 0.0;
     memory_.slips = false;
   }
+  search_.seconds = seconds_;
+  search_.found_anew = fresh_;
+  search_.pulls_before = memory_.pulls;
   search_.sink_m =
       options_.softness_m * (1.0 - std::exp(-memory_.height_m / options_.softness_depth_m));
   push_ = memory_.push;
-  correction_ = memory_.correction;
+  correction_ = memory_.last.correction;
   search_.row_reach_m = fresh_ ? kDeepest_m : kRowReach_m + kRowReachOfMotion * motion_m_;
   if (fresh_) start_outside();
   search_.frame = surface_frame(push_, tracked[Joint::palm].rotation);
   take_step(HandFreedoms::Zero());  // into the range of this frame's pose
   last_ = correction_;
+  if (fresh_) return;
+  speed_ = seconds_ / memory_.last.seconds *
+           step_between(memory_.before.correction, memory_.last.correction);
 }
 
 /// A hand that was lost comes back on the side of the object that its palm is nearest to.
@@ -247,11 +298,13 @@ SettleProblem Settling::problem() const {
   if (!fresh_) problem.springs.add(memory_.geometric, HandFreedoms::Zero());
 
   const HandFreedoms changed = step_between(last_, correction_);
-  if (!fresh_ && !memory_.push.isZero()) {  // in the air the rate alone bounds the release
-    HandFreedoms viscous = kViscosity_s / seconds_ * back;
-    viscous.head<2>() *= kSlideTime_s / kViscosity_s;
-    viscous[2] = 0.0;  // out of the object at once, and back
-    problem.springs.add(viscous, -changed);
+  if (!fresh_) {
+    HandFreedoms time_s = HandFreedoms::Constant(kReleaseTime_s);
+    if (!memory_.push.isZero()) {
+      time_s.setConstant(kViscosity_s);
+      time_s.head<3>() << kSlideTime_s, kSlideTime_s, 0.0;  // out of the object at once, and back
+    }
+    problem.springs.add(back.cwiseProduct(time_s) / seconds_, -changed);
   }
 
   problem.range.low.setConstant(-1.0);
@@ -264,20 +317,20 @@ SettleProblem Settling::problem() const {
     problem.range.high.segment<4>(first) = model_.ranges[d].high - correction_.bend[d];
   }
 
-  HandFreedoms rate;
   if (fresh_) {  // in steps that the planes are good for
-    rate.setConstant(kLongestTurn_rad);
-    rate.head<3>().setConstant(kDeepest_m);
-    problem.rate.low = -rate;
-    problem.rate.high = rate;
+    problem.rate.high.setConstant(kLongestTurn_rad);
+    problem.rate.high.head<3>().setConstant(kDeepest_m);
+    problem.rate.low = -problem.rate.high;
     return problem;
   }
   const double slack_m = kFreeRate_mps * seconds_;
-  rate.setConstant((kBendRate * motion_m_ + slack_m) / kBendLever_m);
-  rate.head<3>().setConstant(kShiftRate * motion_m_ + slack_m);
-  rate.segment<3>(3).setConstant((kTurnRate * motion_m_ + slack_m) / kTurnLever_m);
-  problem.rate.low = -rate - changed;
-  problem.rate.high = rate - changed;
+  const HandFreedoms rate =
+      steps_of(kShiftRate * motion_m_ + slack_m, kTurnRate * motion_m_ + slack_m,
+               kBendRate * motion_m_ + slack_m);
+  const double gain_m = kGainRate * gain_m_ + kFreeGain_mpss * seconds_ * seconds_;
+  const HandFreedoms gain = steps_of(gain_m, gain_m, gain_m);
+  problem.rate.low = -rate.cwiseMin(gain - speed_.cwiseMin(0.0)) - changed;
+  problem.rate.high = rate.cwiseMin(gain + speed_.cwiseMax(0.0)) - changed;
   return problem;
 }
 
@@ -355,7 +408,7 @@ void Settling::remember_surface_motion() {
     if (options_.friction.coefficient > 0.0) {
       const Vec3& palm = model_.tracked[Joint::palm].position;
       const Vec3 before = object_.placement().to_world(
-          memory_.object.to_local((*memory_.tracked)[Joint::palm].position));
+          memory_.last.object.to_local((*memory_.last.tracked)[Joint::palm].position));
       rub(along_surface(palm - before, push_));
     }
   }
@@ -363,14 +416,18 @@ void Settling::remember_surface_motion() {
   memory_.push = push_;
 }
 
+void Settling::remember_frame() {
+  memory_.before = memory_.last;
+  if (fresh_) memory_.before.correction = correction_;  // it did not come from anywhere
+  memory_.last = {model_.tracked, correction_, object_.placement(), seconds_};
+  memory_.surface = &object_.surface();
+  memory_.shape = object_.surface().shape();
+}
+
 SettledHand Settling::finish() {
   if (!touches_ && reach_of(step_between({}, correction_)) < 1e-7) correction_ = {};
   remember_surface_motion();
-  memory_.correction = correction_;
-  memory_.tracked = model_.tracked;
-  memory_.surface = &object_.surface();
-  memory_.object = object_.placement();
-  memory_.shape = object_.surface().shape();
+  remember_frame();
 
   SettledHand settled;
   settled.correction = correction_;
@@ -378,7 +435,7 @@ SettledHand Settling::finish() {
   settled.touches = touches_;
   settled.corrected = !is_none(correction_);
   for (std::size_t i = 0; i < kPartCount; ++i) {
-    const PartTouch& part = parts_[i];
+    const PatchTouch& part = patches_[i];
     if (!(part.depth_m > 0.0) || part.gap_m > kPullReach_m) continue;
     PartContact contact;
     contact.ray_origin = search_.tracked.position(*part.point);

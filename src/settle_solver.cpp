@@ -17,6 +17,8 @@ constexpr int kMostSteps = 16;
 constexpr int kMostSearches = 24;
 /// A change of every freedom by less than this, in metres or radians, is none.
 constexpr double kSmallestChange = 1e-8;
+/// A pull grows with the gap as far as this, and is the same from there on.
+constexpr double kPullGrowth_m = 0.003;
 
 double along(const ContactRow& row, const HandFreedoms& change) {
   double sum = row.wrist.dot(change.head<6>());
@@ -26,9 +28,9 @@ double along(const ContactRow& row, const HandFreedoms& change) {
   return sum;
 }
 
-/// How hard a row pushes or pulls at a gap, per metre.
+/// How a row's force falls with its gap, per metre.
 double stiffness_at(const ContactRow& row, double gap_m) {
-  if (row.pull > 0.0) return gap_m > 0.0 ? row.pull : 0.0;
+  if (row.pull > 0.0) return gap_m > 0.0 && gap_m < kPullGrowth_m ? row.pull : 0.0;
   return gap_m < 0.0 ? kSurfaceStiffness : 0.0;
 }
 
@@ -106,10 +108,10 @@ class Descent {
     Hessian hessian(diagonal);
     for (std::size_t i = 0; i < count_; ++i) {
       const ContactRow& row = problem_.rows[i];
+      const double push = force_at(row, gaps_[i]);
+      if (push == 0.0) continue;
       const double stiffness = stiffness_at(row, gaps_[i]);
-      if (stiffness == 0.0) continue;
-      hessian.add(row, stiffness);
-      const double push = -stiffness * gaps_[i];
+      if (stiffness != 0.0) hessian.add(row, stiffness);
       force.head<6>() += push * row.wrist;
       if (row.digit) force.segment<4>(first_freedom(index_of(*row.digit))) += push * row.bend;
     }
@@ -151,9 +153,9 @@ class Descent {
     }
     for (std::size_t i = 0; i < count_; ++i) {
       const double gap_m = gaps_[i] + length * changes_[i];
-      const double stiffness = stiffness_at(problem_.rows[i], gap_m);
-      result.slope += stiffness * gap_m * changes_[i];
-      result.bend += stiffness * changes_[i] * changes_[i];
+      const ContactRow& row = problem_.rows[i];
+      result.slope -= force_at(row, gap_m) * changes_[i];
+      result.bend += stiffness_at(row, gap_m) * changes_[i] * changes_[i];
     }
     return result;
   }
@@ -189,7 +191,8 @@ double gap_after(const ContactRow& row, const HandFreedoms& step) noexcept {
 }
 
 double force_at(const ContactRow& row, double gap_m) noexcept {
-  return -stiffness_at(row, gap_m) * gap_m;
+  if (row.pull > 0.0) return -row.pull * std::clamp(gap_m, 0.0, kPullGrowth_m);
+  return -kSurfaceStiffness * std::min(gap_m, 0.0);
 }
 
 HandFreedoms least_cost_step(const SettleProblem& problem) noexcept {

@@ -10,13 +10,15 @@ namespace {
 /// The skin is kept this far out.
 constexpr double kMargin_m = 0.0002;
 
-// A part that the person pressed in is drawn to the surface until it is this near, from as far as
-// `kPullReach_m`, with a pull that grows to its full strength with the tracked part's depth.
+// What the person pressed in is drawn to the surface until it is this near, from as far as
+// `kPullReach_m`, with a pull that grows to its full strength with the tracked skin's depth, and
+// with time.
 constexpr double kPullRest_m = 0.001;
 constexpr double kPullFade_m = 0.01;
 constexpr double kPullStart_m = 0.001;
-constexpr double kPullFull_m = 0.02;
-constexpr double kPullStiffness = 1.0 / (0.006 * 0.006);
+constexpr double kPullFull_m = 0.011;
+constexpr double kPullTime_s = 0.1;
+constexpr double kPullStiffness = 1.2e5;
 
 /// A pad's plane serves for as long as the pad stays within this, or within this share of how far
 /// its skin is from touching.
@@ -94,10 +96,17 @@ ContactRow row_of(const TouchSearch& search, const PosedHand& posed, const Flesh
   return row;
 }
 
+/// Takes one more point into a patch.
+void join(const PatchTouch& touch, PatchTouch& patch) {
+  const double depth_m = std::max(patch.depth_m, touch.depth_m);
+  if (touch.gap_m < patch.gap_m) patch = touch;
+  patch.depth_m = depth_m;
+}
+
 /// Takes in a pad's skin: rows for what is near, and what its part needs to know. Gives the lowest
 /// skin's height.
 double add_pad(const TouchSearch& search, const FleshPad& pad, const PadMemory& known,
-               const PosedHand& posed, PartTouches& parts, std::vector<ContactRow>& rows) {
+               const PosedHand& posed, PatchTouches& patches, std::vector<ContactRow>& rows) {
   const Placement& placement = search.object.placement();
   const Vec3 surface_point = placement.to_world(known.plane->point);
   const Vec3 normal = placement.pose.rotation * known.plane->normal;
@@ -107,17 +116,12 @@ double add_pad(const TouchSearch& search, const FleshPad& pad, const PadMemory& 
     const FleshPoint& point = search.flesh.skin[k];
     const double gap_m = normal.dot(posed.flesh.position(point) - surface_point);
     lowest_m = std::min(lowest_m, gap_m);
-    if (pad.part) {
-      PartTouch& part = parts[index_of(*pad.part)];
-      const Vec3 tracked = search.tracked.position(point);
-      part.depth_m = std::max(part.depth_m, normal.dot(surface_point - tracked));
-      if (gap_m < part.gap_m) {
-        part.gap_m = gap_m;
-        part.point = &point;
-        part.surface_point = surface_point;
-        part.normal = normal;
-        part.curvature = curvature;
-      }
+    PatchTouch& nearest = patches[kNearestSkin];
+    if (pad.part || gap_m < nearest.gap_m) {
+      const double depth_m = normal.dot(surface_point - search.tracked.position(point));
+      const PatchTouch touch{gap_m, depth_m, &point, surface_point, normal, curvature};
+      if (gap_m < nearest.gap_m) nearest = touch;
+      if (pad.part) join(touch, patches[index_of(*pad.part)]);
     }
     if (gap_m > search.row_reach_m || rows.size() == kMostContactRows) continue;
     ContactRow& row = rows.emplace_back(row_of(search, posed, point, normal));
@@ -127,17 +131,25 @@ double add_pad(const TouchSearch& search, const FleshPad& pad, const PadMemory& 
   return lowest_m;
 }
 
-void add_pulls(const TouchSearch& search, const PosedHand& posed, const PartTouches& parts,
-               std::vector<ContactRow>& rows) {
-  for (const PartTouch& part : parts) {
-    if (!part.point || rows.size() == kMostContactRows) continue;
-    const double share = smoothstep(kPullStart_m, kPullStart_m + kPullFull_m, part.depth_m) *
-                         smoothstep(-kPullReach_m, kPullFade_m - kPullReach_m, -part.gap_m);
-    if (share == 0.0) continue;
-    ContactRow& row = rows.emplace_back(row_of(search, posed, *part.point, part.normal));
-    row.gap_m = part.gap_m + search.sink_m - kPullRest_m;
-    row.curvature = part.curvature;
-    row.pull = share * kPullStiffness;
+/// A pull comes in time, and goes at once.
+double pull_share(const TouchSearch& search, const PatchTouch& patch, double before) {
+  const double share = smoothstep(kPullStart_m, kPullFull_m, patch.depth_m) *
+                       smoothstep(-kPullReach_m, kPullFade_m - kPullReach_m, -patch.gap_m);
+  if (share <= before || search.found_anew) return share;
+  return share + std::exp(-search.seconds / kPullTime_s) * (before - share);
+}
+
+void add_pulls(const TouchSearch& search, const PosedHand& posed, const PatchTouches& patches,
+               SettleMemory& memory) {
+  for (std::size_t i = 0; i < kPulls; ++i) {
+    const PatchTouch& patch = patches[i];
+    const bool drawn = patch.point && memory.rows.size() < kMostContactRows;
+    memory.pulls[i] = drawn ? pull_share(search, patch, search.pulls_before[i]) : 0.0;
+    if (memory.pulls[i] == 0.0) continue;
+    ContactRow& row = memory.rows.emplace_back(row_of(search, posed, *patch.point, patch.normal));
+    row.gap_m = patch.gap_m + search.sink_m - kPullRest_m;
+    row.curvature = patch.curvature;
+    row.pull = memory.pulls[i] * kPullStiffness;
   }
 }
 
@@ -148,11 +160,11 @@ double smoothstep(double from, double to, double x) noexcept {
   return t * t * (3.0 - 2.0 * t);
 }
 
-PartTouches find_touches(const TouchSearch& search, const PosedHand& posed,
-                         SettleMemory& memory) noexcept {
+PatchTouches find_touches(const TouchSearch& search, const PosedHand& posed,
+                          SettleMemory& memory) noexcept {
   memory.rows.clear();
   count_travel(search.object, posed.hand, memory);
-  PartTouches parts;
+  PatchTouches patches;
   for (std::size_t i = 0; i < search.flesh.pads.size(); ++i) {
     const FleshPad& pad = search.flesh.pads[i];
     const double reach_m = kStretch * search.scale * pad.radius_m +
@@ -161,7 +173,7 @@ PartTouches find_touches(const TouchSearch& search, const PosedHand& posed,
     if (known.free_m - memory.travel_m > reach_m) continue;
     const Vec3 middle = posed.flesh.position(pad.middle);
     if (!find_plane(search.object, middle, reach_m, memory.travel_m, known)) continue;
-    const double lowest_m = add_pad(search, pad, known, posed, parts, memory.rows);
+    const double lowest_m = add_pad(search, pad, known, posed, patches, memory.rows);
     if (pad.part) continue;
     known.same_m = std::max(kSamePlane_m, kSamePlaneOfGap * lowest_m);
     if (lowest_m <= search.row_reach_m) continue;
@@ -169,8 +181,8 @@ PartTouches find_touches(const TouchSearch& search, const PosedHand& posed,
         std::max(known.clearance_m, reach_m + kUnseen * (lowest_m - search.row_reach_m));
     known.free_m = known.clearance_m + memory.travel_m;
   }
-  add_pulls(search, posed, parts, memory.rows);
-  return parts;
+  add_pulls(search, posed, patches, memory);
+  return patches;
 }
 
 }  // namespace nade

@@ -11,8 +11,8 @@ namespace nade {
 /// Rows beyond this many are left out.
 inline constexpr std::size_t kMostContactRows = 1024;
 
-/// A part's patch of skin, drawn and tracked, against the surface near it. World frame.
-struct PartTouch {
+/// A patch of skin, drawn and tracked, against the surface near it. World frame.
+struct PatchTouch {
   double gap_m = std::numeric_limits<double>::infinity();
   double depth_m = -std::numeric_limits<double>::infinity();  ///< of the tracked patch
   const FleshPoint* point = nullptr;                          ///< of the drawn one, the nearest
@@ -20,9 +20,11 @@ struct PartTouch {
   Vec3 normal = Vec3::UnitY();
   double curvature = 0.0;  ///< 1/m
 };
-using PartTouches = std::array<PartTouch, kPartCount>;
+/// Each part's patch, and of all skin the point that is nearest to the surface.
+using PatchTouches = std::array<PatchTouch, kPulls>;
+inline constexpr std::size_t kNearestSkin = kPartCount;
 
-/// From farther than this a part is not drawn to the surface.
+/// From farther than this a patch is not drawn to the surface.
 inline constexpr double kPullReach_m = 0.03;
 
 /// What a frame's rounds look for, and where.
@@ -31,14 +33,17 @@ struct TouchSearch {
   const Object& object;
   PosedFlesh tracked;
   double scale = 1.0;                                   ///< of the tracked hand over the flesh
+  double seconds = 0.0;                                 ///< since the last frame
+  bool found_anew = false;                              ///< the hand was not there in it
+  std::array<double, kPulls> pulls_before{};            ///< `SettleMemory::pulls` of the last frame
   double row_reach_m = 0.0;                             ///< skin nearer than this gets a row
   double sink_m = 0.0;                                  ///< so far in is still out
   Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  ///< in which the rows' wrist is counted
 };
 
-/// Fills `memory.rows` for a posed hand.
-[[nodiscard]] PartTouches find_touches(const TouchSearch& search, const PosedHand& posed,
-                                       SettleMemory& memory) noexcept;
+/// Fills `memory.rows` and `memory.pulls` for a posed hand.
+[[nodiscard]] PatchTouches find_touches(const TouchSearch& search, const PosedHand& posed,
+                                        SettleMemory& memory) noexcept;
 
 /// 0 below `from`, 1 above `to`, smooth between.
 [[nodiscard]] double smoothstep(double from, double to, double x) noexcept;

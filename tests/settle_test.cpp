@@ -163,6 +163,27 @@ TEST(Settle, AHandThatGripsABallAndGoesStraightOnDoesNotTremble) {
   }
 }
 
+/// A hand that stroked a ball's side and goes straight up has a correction left when it is free.
+TEST(Settle, AHandThatLeavesABallIsNotThrownBack) {
+  HandCorrector corrector(settling());
+  std::vector<HandPose> drawn;
+  std::size_t free_from = 0;
+  for (int i = 0; i < 160; ++i) {
+    const Vec3 along(0.0, 0.0, -0.001 * std::min(i, 60));
+    const double depth_m = 0.02 - 0.002 * std::max(0, i - 80);
+    const CorrectedHand& result =
+        corrector.update(pressed_hand(depth_m, 0.0, along), ball(), i * kFrame_ns);
+    drawn.push_back(result.pose);
+    if (result.status == HandStatus::corrected) free_from = drawn.size();
+  }
+  ASSERT_LT(free_from + 40, drawn.size());
+  double most_m = 0.0;
+  for (std::size_t i = free_from; i + 1 < drawn.size(); ++i) {
+    most_m = std::max(most_m, unevenness(drawn[i - 1], drawn[i], drawn[i + 1]));
+  }
+  EXPECT_LT(most_m, 0.0006);
+}
+
 TEST(Settle, ADeepHandThatIsFoundComesOut) {
   for (const Object& object : {plane(), ball()}) {
     HandCorrector corrector(settling());

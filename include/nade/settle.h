@@ -45,6 +45,9 @@ struct PadMemory {
   double free_m = 0.0;         ///< what was left of that when last seen, plus `travel_m` then
 };
 
+/// What is drawn to the surface: each part, and the skin that is nearest to it, whichever it is.
+inline constexpr std::size_t kPulls = kPartCount + 1;
+
 /// The hand's freedoms: shift and turn of the wrist, then four bends a digit.
 inline constexpr Eigen::Index kHandFreedoms = 6 + 4 * 5;
 using HandFreedoms = Eigen::Matrix<double, kHandFreedoms, 1>;
@@ -60,15 +63,22 @@ struct ContactRow {
   std::optional<Digit> digit;  ///< whose bend counts
   double gap_m = 0.0;
   double curvature = 0.0;  ///< of the surface, 1/m; convex above 0
-  double pull = 0.0;       ///< above 0: not kept out but drawn near, with this weight
+  double pull = 0.0;       ///< above 0: not kept out but drawn near, with this stiffness
+};
+
+/// A frame as it was settled.
+struct SettledFrame {
+  std::optional<HandPose> tracked;
+  Correction correction;
+  Placement object;
+  double seconds = 0.0;  ///< since the one before it
 };
 
 /// What settle_hand remembers of a hand from frame to frame, and room to work in.
 struct SettleMemory {
-  Correction correction;             ///< the last frame's
-  std::optional<HandPose> tracked;   ///< the last frame's
+  SettledFrame last;
+  SettledFrame before;               ///< the one before that
   const Surface* surface = nullptr;  ///< the last frame's; only its address counts
-  Placement object;                  ///< the last frame's
   std::uint64_t shape = 0;           ///< the surface's, in the last frame
   Vec3 push = Vec3::Zero();          ///< unit, the way the object pushes; zero in the air
   double height_m = 0.0;             ///< of the drawn hand over the tracked one along `push`
@@ -76,6 +86,7 @@ struct SettleMemory {
   Vec3 lag = Vec3::Zero();           ///< along the surface, by friction
   bool slips = false;
   HandFreedoms geometric = HandFreedoms::Zero();  ///< stiffness, of the last round's contacts
+  std::array<double, kPulls> pulls{};             ///< shares of the full pull, in the last frame
   std::vector<PadMemory> pads;
   std::vector<ContactRow> rows;
   std::array<Vec3, kJointCount> joints{};  ///< of the hand as looked at last; object frame
