@@ -5,6 +5,7 @@
 
 #include "posed_hand.h"
 #include "settle_solver.h"
+#include "settle_step.h"
 #include "touch_finder.h"
 
 namespace nade {
@@ -37,8 +38,6 @@ constexpr double kFreeRate_mps = 0.008;
 /// speed, and a little more. It may stop at once.
 constexpr double kGainRate = 1.5;
 constexpr double kFreeGain_mpss = 1.5;
-constexpr double kTurnLever_m = 0.10;
-constexpr double kBendLever_m = 0.07;
 constexpr double kWallStiffness = 1e5;
 /// Turns and bends follow with this time constant.
 constexpr double kViscosity_s = 0.025;
@@ -65,36 +64,9 @@ constexpr double kDeepest_m = 0.3;
 constexpr double kLongestTurn_rad = 0.3;
 constexpr double kPalmThickness_m = 0.02;
 
-Vec3 along_surface(const Vec3& vector, const Vec3& normal) {
-  return vector - normal.dot(vector) * normal;
-}
-
 Vec3 shortened(const Vec3& vector, double most) {
   const double length = vector.norm();
   return length > most ? Vec3(most / length * vector) : vector;
-}
-
-Vec3 rotation_vector(const Quat& turn) {
-  const Eigen::AngleAxisd angle_axis{turn.w() < 0.0 ? Quat(-turn.coeffs()) : turn};
-  return angle_axis.angle() * angle_axis.axis();
-}
-
-Quat turn_about(const Vec3& rotation_vector) {
-  const double angle = rotation_vector.norm();
-  if (angle == 0.0) return Quat::Identity();
-  return Quat(Eigen::AngleAxisd(angle, rotation_vector / angle));
-}
-
-bool is_none(const Correction& correction) {
-  return correction.palm.shift.isZero(0.0) && correction.palm.turn.vec().isZero(0.0) &&
-         std::all_of(correction.bend.begin(), correction.bend.end(),
-                     [](const DigitFreedoms& bend) { return bend.isZero(0.0); });
-}
-
-/// The farthest that any skin goes in a step, about.
-double reach_of(const HandFreedoms& step) {
-  return step.head<3>().norm() + kTurnLever_m * step.segment<3>(3).norm() +
-         kBendLever_m * step.tail<kHandFreedoms - 6>().cwiseAbs().maxCoeff();
 }
 
 /// How far a joint went beyond where it would have gone on from the first two poses, at the most,
@@ -108,27 +80,6 @@ double largest_gain(const HandPose& first, const HandPose& second, const HandPos
     farthest_m = std::max(farthest_m, (after - ratio * before).norm());
   }
   return farthest_m;
-}
-
-/// Each freedom's step that takes the hand's farthest skin about so far.
-HandFreedoms steps_of(double shift_m, double turn_m, double bend_m) {
-  HandFreedoms steps = HandFreedoms::Constant(bend_m / kBendLever_m);
-  steps.head<3>().setConstant(shift_m);
-  steps.segment<3>(3).setConstant(turn_m / kTurnLever_m);
-  return steps;
-}
-
-/// Z along `normal`, X as near as can be to where the hand points; the hand's own axes where there
-/// is no normal.
-Eigen::Matrix3d surface_frame(const Vec3& normal, const Quat& palm) {
-  const Vec3 ahead = palm * -Vec3::UnitZ();
-  const Vec3 along = along_surface(ahead, normal);
-  if (normal.isZero() || along.norm() < 1e-6) return palm.toRotationMatrix();
-  Eigen::Matrix3d frame;
-  frame.col(0) = along.normalized();
-  frame.col(1) = normal.cross(frame.col(0));
-  frame.col(2) = normal;
-  return frame;
 }
 
 /// One frame's work.
@@ -163,7 +114,6 @@ class Settling {
   void start();
   void find_motion();
   void start_outside();
-  [[nodiscard]] HandFreedoms step_between(const Correction& from, const Correction& to) const;
   void take_step(const HandFreedoms& step);
   [[nodiscard]] SettleProblem problem() const;
   void find_forces(const PosedHand& posed, const HandFreedoms& step);
@@ -225,12 +175,11 @@ void Settling::start() {
     memory_.last = memory_.before = {};
     memory_.push = memory_.carried = memory_.lag = Vec3::Zero();
     memory_.geometric.setZero();
-    memory_.pulls.fill(0.0);
+    memory_.pulls.fill(1.0);  // no pull has to come first
     memory_.height_m = 0.0;
     memory_.slips = false;
   }
   search_.seconds = seconds_;
-  search_.found_anew = fresh_;
   search_.pulls_before = memory_.pulls;
   search_.sink_m =
       options_.softness_m * (1.0 - std::exp(-memory_.height_m / options_.softness_depth_m));
@@ -243,7 +192,7 @@ void Settling::start() {
   last_ = correction_;
   if (fresh_) return;
   speed_ = seconds_ / memory_.last.seconds *
-           step_between(memory_.before.correction, memory_.last.correction);
+           step_between(memory_.before.correction, memory_.last.correction, search_.frame);
 }
 
 /// A hand that was lost comes back on the side of the object that its palm is nearest to.
@@ -256,28 +205,8 @@ void Settling::start_outside() {
   correction_.palm.shift = nearest->point - palm + model_.scale * kPalmThickness_m * push_;
 }
 
-/// A correction as the step that leads to it from another.
-HandFreedoms Settling::step_between(const Correction& from, const Correction& to) const {
-  HandFreedoms step;
-  step.head<3>() = search_.frame.transpose() * (to.palm.shift - from.palm.shift);
-  step.segment<3>(3) =
-      search_.frame.transpose() * rotation_vector(to.palm.turn * from.palm.turn.conjugate());
-  for (std::size_t d = 0; d < kDigitCount; ++d) {
-    step.segment<4>(first_freedom(d)) = to.bend[d] - from.bend[d];
-  }
-  return step;
-}
-
 void Settling::take_step(const HandFreedoms& step) {
-  PalmCorrection& palm = correction_.palm;
-  palm.shift += search_.frame * step.head<3>();
-  palm.turn = (turn_about(search_.frame * step.segment<3>(3)) * palm.turn).normalized();
-  for (std::size_t d = 0; d < kDigitCount; ++d) {
-    const BendRange& range = model_.ranges[d];
-    correction_.bend[d] = (correction_.bend[d] + step.segment<4>(first_freedom(d)))
-                              .cwiseMax(range.low)
-                              .cwiseMin(range.high);
-  }
+  correction_ = after_step(correction_, step, search_.frame, model_.ranges);
 }
 
 SettleProblem Settling::problem() const {
@@ -291,13 +220,13 @@ SettleProblem Settling::problem() const {
     back.segment<4>(first_freedom(d)) =
         digit_at(d) == Digit::thumb ? kThumbStiffness : kFingerStiffness;
   }
-  HandFreedoms away = step_between({}, correction_);
+  HandFreedoms away = step_between({}, correction_, search_.frame);
   away.head<3>() -= search_.frame.transpose() * (memory_.carried + memory_.lag);
   problem.springs.add(back, -away);
   // The forces on a hand found anew are not yet those that it will rest with.
   if (!fresh_) problem.springs.add(memory_.geometric, HandFreedoms::Zero());
 
-  const HandFreedoms changed = step_between(last_, correction_);
+  const HandFreedoms changed = step_between(last_, correction_, search_.frame);
   if (!fresh_) {
     HandFreedoms time_s = HandFreedoms::Constant(kReleaseTime_s);
     if (!memory_.push.isZero()) {
@@ -425,7 +354,7 @@ void Settling::remember_frame() {
 }
 
 SettledHand Settling::finish() {
-  if (!touches_ && reach_of(step_between({}, correction_)) < 1e-7) correction_ = {};
+  if (!touches_ && reach_of(step_between({}, correction_, search_.frame)) < 1e-7) correction_ = {};
   remember_surface_motion();
   remember_frame();
 

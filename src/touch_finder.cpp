@@ -135,7 +135,7 @@ double add_pad(const TouchSearch& search, const FleshPad& pad, const PadMemory& 
 double pull_share(const TouchSearch& search, const PatchTouch& patch, double before) {
   const double share = smoothstep(kPullStart_m, kPullFull_m, patch.depth_m) *
                        smoothstep(-kPullReach_m, kPullFade_m - kPullReach_m, -patch.gap_m);
-  if (share <= before || search.found_anew) return share;
+  if (share <= before) return share;
   return share + std::exp(-search.seconds / kPullTime_s) * (before - share);
 }
 

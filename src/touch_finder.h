@@ -34,7 +34,6 @@ struct TouchSearch {
   PosedFlesh tracked;
   double scale = 1.0;                                   ///< of the tracked hand over the flesh
   double seconds = 0.0;                                 ///< since the last frame
-  bool found_anew = false;                              ///< the hand was not there in it
   std::array<double, kPulls> pulls_before{};            ///< `SettleMemory::pulls` of the last frame
   double row_reach_m = 0.0;                             ///< skin nearer than this gets a row
   double sink_m = 0.0;                                  ///< so far in is still out
