@@ -122,18 +122,31 @@ PosedHand pose_hand(const HandModel& model, const Correction& correction) noexce
   return posed;
 }
 
-ContactRow motion_along(const PosedHand& posed, const FleshPoint& point,
-                        const Vec3& direction) noexcept {
+ContactRow motion_along(const PosedHand& posed, const FleshPoint& point, const Vec3& direction,
+                        const Eigen::Matrix3d& frame) noexcept {
   ContactRow row;
   row.point = &point;
   const std::size_t digit = leading_digit(point);
   const Vec3 position = for_each_arm(posed, point, digit, [&](const Arm& arm) {
     row.bend[arm.freedom] += arm.share * arm.axis.dot(arm.reach.cross(direction));
   });
-  row.wrist.head<3>() = direction;
-  row.wrist.tail<3>() = (position - posed.hand[Joint::palm].position).cross(direction);
+  const Vec3 reach = position - posed.hand[Joint::palm].position;
+  row.wrist.head<3>() = frame.transpose() * direction;
+  row.wrist.tail<3>() = frame.transpose() * reach.cross(direction);
   if (digit != kDigitCount) row.digit = digit_at(digit);
   return row;
+}
+
+const FleshPoint& joint_point(std::size_t joint) noexcept {
+  static const auto kPoints = [] {
+    std::array<FleshPoint, kJointCount> all;
+    for (std::size_t i = 0; i < kJointCount; ++i) {
+      all[i].joints[0] = static_cast<std::uint8_t>(i);
+      all[i].weights[0] = 1.0;
+    }
+    return all;
+  }();
+  return kPoints[joint];
 }
 
 LeverGrowth lever_growth(const PosedHand& posed, const ContactRow& row,

@@ -41,10 +41,13 @@ struct PosedHand {
 [[nodiscard]] PosedHand pose_hand(const HandModel& model, const Correction& correction) noexcept;
 
 /// How far the point moves along `direction` with the hand's freedoms: the wrist shifted, and
-/// turned about the palm; the bends of the one digit that moves it most. `gap_m` and `pull` are
-/// left 0.
+/// turned about the palm, along and about the axes of a frame; the bends of the one digit that
+/// moves it most. The rest of the row is left as it is by default.
 [[nodiscard]] ContactRow motion_along(const PosedHand& posed, const FleshPoint& point,
-                                      const Vec3& direction) noexcept;
+                                      const Vec3& direction, const Eigen::Matrix3d& frame) noexcept;
+
+/// A joint's origin as a point of the hand.
+[[nodiscard]] const FleshPoint& joint_point(std::size_t joint) noexcept;
 
 /// How those numbers themselves grow: each of the wrist's with its own freedom, the turns about
 /// the axes of a frame; the bends' with all of the digit's freedoms, symmetric.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "posed_hand.h"
+#include "settle_pace.h"
 #include "settle_solver.h"
 #include "settle_step.h"
 #include "touch_finder.h"
@@ -31,7 +32,7 @@ constexpr double kRowReachOfMotion = 0.4;
 // How fast a correction may change where nothing pushes: so many times the tracked hand's own
 // motion, and a little more, so that a hand at rest is released as well.
 constexpr double kShiftRate = 1.5;
-constexpr double kTurnRate = 0.6;
+constexpr double kTurnRate = 0.75;
 constexpr double kBendRate = 0.45;
 constexpr double kFreeRate_mps = 0.008;
 /// And how much faster from frame to frame: so many times what the tracked hand gained on its own
@@ -45,6 +46,11 @@ constexpr double kViscosity_s = 0.025;
 constexpr double kSlideTime_s = 0.05;
 /// In the air, all of a correction goes with this.
 constexpr double kReleaseTime_s = 0.03;
+/// No joint goes farther in a frame than so many times the tracked hand's fastest, and a little
+/// more, unless the object pushes harder than this holds it back.
+constexpr double kFastest = 1.9;
+/// What the tracked joints do against the object is smoothed over this time.
+constexpr double kVelocityTime_s = 0.03;
 /// The direction of the object's push is smoothed over this time.
 constexpr double kPushTime_s = 0.07;
 /// The drawn hand strays along the surface by no more than this share of the depth.
@@ -69,19 +75,6 @@ Vec3 shortened(const Vec3& vector, double most) {
   return length > most ? Vec3(most / length * vector) : vector;
 }
 
-/// How far a joint went beyond where it would have gone on from the first two poses, at the most,
-/// if the last step took `ratio` times as long as the one before.
-double largest_gain(const HandPose& first, const HandPose& second, const HandPose& third,
-                    double ratio) {
-  double farthest_m = 0.0;
-  for (std::size_t i = 0; i < kJointCount; ++i) {
-    const Vec3 before = second.joints[i].position - first.joints[i].position;
-    const Vec3 after = third.joints[i].position - second.joints[i].position;
-    farthest_m = std::max(farthest_m, (after - ratio * before).norm());
-  }
-  return farthest_m;
-}
-
 /// One frame's work.
 class Settling {
  public:
@@ -98,30 +91,39 @@ class Settling {
 
   SettledHand run() {
     const int rounds = fresh_ ? kFirstRounds : kRounds;
+    const double most_m = kFastest * motion_m_ + kFreeRate_mps * seconds_;
+    PosedHand posed = pose_hand(model_, correction_);
     for (int round = 0; round < rounds; ++round) {
-      const PosedHand posed = pose_hand(model_, correction_);
       patches_ = find_touches(search_, posed, memory_);
       if (memory_.rows.empty() && is_none(correction_)) break;
-      const HandFreedoms step = least_cost_step(problem());
-      take_step(step);
+      HandFreedoms step = least_cost_step(problem());
+      PosedHand next = pose_hand(model_, after(step));
+      if (!fresh_ && hold_back(memory_.last.drawn, next.hand, most_m, posed, step, search_.frame,
+                               memory_.rows)) {
+        step = least_cost_step(problem());
+        next = pose_hand(model_, after(step));
+      }
+      correction_ = after(step);
       find_forces(posed, step);
+      posed = next;
       if (reach_of(step) < kSettled_m) break;
     }
-    return finish();
+    return finish(posed.hand);
   }
 
  private:
   void start();
   void find_motion();
   void start_outside();
-  void take_step(const HandFreedoms& step);
+  [[nodiscard]] Correction after(const HandFreedoms& step) const;
   [[nodiscard]] SettleProblem problem() const;
   void find_forces(const PosedHand& posed, const HandFreedoms& step);
+  [[nodiscard]] bool is_pressed() const;
   void find_push(const Vec3& force);
   void remember_surface_motion();
   void rub(const Vec3& stroked);
-  void remember_frame();
-  SettledHand finish();
+  void remember_frame(const HandPose& drawn);
+  SettledHand finish(const HandPose& posed);
 
   const Object& object_;
   const SettleOptions& options_;
@@ -151,6 +153,8 @@ void Settling::find_motion() {
   const Pose& object = object_.placement().pose;
   const HandPose carried = moved(*last.tracked, object * last.object.pose.inverse());
   motion_m_ = std::max(largest_motion(*last.tracked, now), largest_motion(carried, now));
+  const double follow = before.tracked ? 1.0 - std::exp(-seconds_ / kVelocityTime_s) : 1.0;
+  follow_velocity(carried, now, object.rotation, seconds_, follow, memory_.velocity);
   if (!before.tracked) return;
   const HandPose earlier = moved(*before.tracked, object * before.object.pose.inverse());
   const double ratio = seconds_ / last.seconds;
@@ -175,6 +179,7 @@ void Settling::start() {
     memory_.last = memory_.before = {};
     memory_.push = memory_.carried = memory_.lag = Vec3::Zero();
     memory_.geometric.setZero();
+    memory_.velocity.fill(Vec3::Zero());
     memory_.pulls.fill(1.0);  // no pull has to come first
     memory_.height_m = 0.0;
     memory_.slips = false;
@@ -187,9 +192,13 @@ void Settling::start() {
   correction_ = memory_.last.correction;
   search_.row_reach_m = fresh_ ? kDeepest_m : kRowReach_m + kRowReachOfMotion * motion_m_;
   if (fresh_) start_outside();
+  search_.push = push_;
   search_.frame = surface_frame(push_, tracked[Joint::palm].rotation);
-  take_step(HandFreedoms::Zero());  // into the range of this frame's pose
+  correction_ = after(HandFreedoms::Zero());  // into the range of this frame's pose
   last_ = correction_;
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    search_.velocity[i] = placement.pose.rotation * memory_.velocity[i];
+  }
   if (fresh_) return;
   speed_ = seconds_ / memory_.last.seconds *
            step_between(memory_.before.correction, memory_.last.correction, search_.frame);
@@ -205,8 +214,8 @@ void Settling::start_outside() {
   correction_.palm.shift = nearest->point - palm + model_.scale * kPalmThickness_m * push_;
 }
 
-void Settling::take_step(const HandFreedoms& step) {
-  correction_ = after_step(correction_, step, search_.frame, model_.ranges);
+Correction Settling::after(const HandFreedoms& step) const {
+  return after_step(correction_, step, search_.frame, model_.ranges);
 }
 
 SettleProblem Settling::problem() const {
@@ -273,15 +282,17 @@ void Settling::find_forces(const PosedHand& posed, const HandFreedoms& step) {
   bend.fill(Eigen::Matrix4d::Zero());
   touches_ = false;
   for (const ContactRow& row : memory_.rows) {
+    if (row.kind == RowKind::hold_back) continue;
     const double gap_m = gap_after(row, step);
     if (const double force = force_at(row, gap_m); force != 0.0) {
       const LeverGrowth growth = lever_growth(posed, row, search_.frame);
       wrist -= force * growth.wrist;
       if (row.digit) bend[index_of(*row.digit)] -= force * growth.bend;
     }
-    if (gap_m > 0.0) continue;
+    if (gap_m > row.cushion_m) continue;
     touches_ = true;
-    if (row.pull == 0.0) push -= gap_m * (search_.frame * row.wrist.head<3>());
+    if (row.kind == RowKind::draw_near) continue;
+    push += (row.cushion_m - gap_m) * (search_.frame * row.wrist.head<3>());
   }
   // By rows, so that it is no less than the matrix where that is above 0 (Gershgorin).
   memory_.geometric.head<6>() = wrist.cwiseMax(0.0);
@@ -293,11 +304,18 @@ void Settling::find_forces(const PosedHand& posed, const HandFreedoms& step) {
   find_push(push);
 }
 
+/// Whether the person is in the object near where the drawn hand hovers for a moment.
+bool Settling::is_pressed() const {
+  return std::any_of(patches_.begin(), patches_.end(), [](const PatchTouch& patch) {
+    return patch.depth_m > 0.0 && patch.gap_m < kPullReach_m;
+  });
+}
+
 /// The way the object pushes, smoothed.
 void Settling::find_push(const Vec3& force) {
   const double strength = force.norm();
   if (!(strength > 1e-12)) {
-    push_ = touches_ ? memory_.push : Vec3::Zero();
+    push_ = touches_ || is_pressed() ? memory_.push : Vec3::Zero();
     return;
   }
   push_ = force / strength;
@@ -345,22 +363,21 @@ void Settling::remember_surface_motion() {
   memory_.push = push_;
 }
 
-void Settling::remember_frame() {
+void Settling::remember_frame(const HandPose& drawn) {
   memory_.before = memory_.last;
   if (fresh_) memory_.before.correction = correction_;  // it did not come from anywhere
-  memory_.last = {model_.tracked, correction_, object_.placement(), seconds_};
+  memory_.last = {model_.tracked, drawn, correction_, object_.placement(), seconds_};
   memory_.surface = &object_.surface();
   memory_.shape = object_.surface().shape();
 }
 
-SettledHand Settling::finish() {
+SettledHand Settling::finish(const HandPose& posed) {
   if (!touches_ && reach_of(step_between({}, correction_, search_.frame)) < 1e-7) correction_ = {};
-  remember_surface_motion();
-  remember_frame();
-
   SettledHand settled;
   settled.correction = correction_;
-  settled.hand = is_none(correction_) ? model_.tracked : pose_hand(model_, correction_).hand;
+  settled.hand = is_none(correction_) ? model_.tracked : posed;
+  remember_surface_motion();
+  remember_frame(settled.hand);
   settled.touches = touches_;
   settled.corrected = !is_none(correction_);
   for (std::size_t i = 0; i < kPartCount; ++i) {
@@ -384,6 +401,8 @@ SettleMemory settle_memory(const HandFlesh& flesh) {
   SettleMemory memory;
   memory.pads.resize(flesh.pads.size());
   memory.rows.reserve(kMostContactRows);
+  memory.joints.fill(Vec3::Zero());  // Eigen's vectors begin with whatever was there
+  memory.velocity.fill(Vec3::Zero());
   return memory;
 }
 

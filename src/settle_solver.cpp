@@ -17,6 +17,7 @@ constexpr int kMostSteps = 16;
 constexpr int kMostSearches = 24;
 /// A change of every freedom by less than this, in metres or radians, is none.
 constexpr double kSmallestChange = 1e-8;
+constexpr double kCushionStiffness = 2e5;
 /// A pull grows with the gap as far as this, and is the same from there on.
 constexpr double kPullGrowth_m = 0.003;
 
@@ -30,8 +31,16 @@ double along(const ContactRow& row, const HandFreedoms& change) {
 
 /// How a row's force falls with its gap, per metre.
 double stiffness_at(const ContactRow& row, double gap_m) {
-  if (row.pull > 0.0) return gap_m > 0.0 && gap_m < kPullGrowth_m ? row.pull : 0.0;
-  return gap_m < 0.0 ? kSurfaceStiffness : 0.0;
+  switch (row.kind) {
+    case RowKind::draw_near:
+      return gap_m > 0.0 && gap_m < kPullGrowth_m ? row.stiffness : 0.0;
+    case RowKind::hold_back:
+      return gap_m < 0.0 ? row.stiffness : 0.0;
+    case RowKind::keep_out:
+      break;
+  }
+  const double cushion = gap_m < row.cushion_m ? kCushionStiffness : 0.0;
+  return gap_m < 0.0 ? kSurfaceStiffness + cushion : cushion;
 }
 
 /// How far beyond a wall, signed.
@@ -191,8 +200,16 @@ double gap_after(const ContactRow& row, const HandFreedoms& step) noexcept {
 }
 
 double force_at(const ContactRow& row, double gap_m) noexcept {
-  if (row.pull > 0.0) return -row.pull * std::clamp(gap_m, 0.0, kPullGrowth_m);
-  return -kSurfaceStiffness * std::min(gap_m, 0.0);
+  switch (row.kind) {
+    case RowKind::draw_near:
+      return -row.stiffness * std::clamp(gap_m, 0.0, kPullGrowth_m);
+    case RowKind::hold_back:
+      return -row.stiffness * std::min(gap_m, 0.0);
+    case RowKind::keep_out:
+      break;
+  }
+  return -kSurfaceStiffness * std::min(gap_m, 0.0) -
+         kCushionStiffness * std::min(gap_m - row.cushion_m, 0.0);
 }
 
 HandFreedoms least_cost_step(const SettleProblem& problem) noexcept {

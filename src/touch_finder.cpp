@@ -15,10 +15,16 @@ constexpr double kMargin_m = 0.0002;
 // with time.
 constexpr double kPullRest_m = 0.001;
 constexpr double kPullFade_m = 0.01;
-constexpr double kPullStart_m = 0.001;
+constexpr double kPullStart_m = -0.001;
 constexpr double kPullFull_m = 0.011;
 constexpr double kPullTime_s = 0.1;
-constexpr double kPullStiffness = 1.2e5;
+constexpr double kPullStiffness = 8e4;
+
+// Skin lands on a cushion and leaves it by the same way: at rest so thick, and thicker by the way
+// that it goes in so long.
+constexpr double kThinnest_m = 0.0005;
+constexpr double kThickest_m = 0.012;
+constexpr double kLandingTime_s = 0.06;
 
 /// A pad's plane serves for as long as the pad stays within this, or within this share of how far
 /// its skin is from touching.
@@ -88,12 +94,55 @@ void count_travel(const Object& object, const HandPose& hand, SettleMemory& memo
   memory.travel_m += kStretch * object.placement().scale * std::sqrt(farthest);
 }
 
-ContactRow row_of(const TouchSearch& search, const PosedHand& posed, const FleshPoint& point,
-                  const Vec3& normal) {
-  ContactRow row = motion_along(posed, point, normal);
-  row.wrist.head<3>() = search.frame.transpose() * row.wrist.head<3>();
-  row.wrist.tail<3>() = search.frame.transpose() * row.wrist.tail<3>();
-  return row;
+/// How thick a cushion skin needs that goes to the surface or from it at this speed.
+double cushion_thickness(double speed_mps) {
+  return std::min(kThickest_m, kThinnest_m + kLandingTime_s * speed_mps);
+}
+
+/// The most of a velocity that can be toward a surface: along the push, or any in the air.
+double landing_speed(const TouchSearch& search, const Vec3& velocity) {
+  return search.push.isZero() ? velocity.norm() : std::abs(search.push.dot(velocity));
+}
+
+/// What skin lands on, under one pad.
+struct Cushion {
+  double thickness_m = 0.0;
+  double lift_m = 0.0;  ///< of the drawn pad over the tracked one
+
+  /// How far skin is held off the surface that would be `gap_m` away from it. From the cushion's
+  /// thickness above the surface to as far below, the tracked skin is brought to rest at an even
+  /// deceleration.
+  [[nodiscard]] double at(double gap_m) const {
+    const double way_m = gap_m - lift_m + thickness_m;
+    if (way_m <= 0.0) return 0.0;
+    if (way_m > 2.0 * thickness_m) return std::max(0.0, 2.0 * thickness_m - 0.5 * way_m);
+    return way_m * way_m / (4.0 * thickness_m);
+  }
+};
+
+/// How fast the person moves a pad against the object, m/s.
+Vec3 velocity_of(const TouchSearch& search, const FleshPad& pad) {
+  Vec3 velocity = Vec3::Zero();
+  for (std::size_t k = 0; k < pad.middle.joints.size() && pad.middle.weights[k] > 0.0; ++k) {
+    velocity += pad.middle.weights[k] * search.velocity[pad.middle.joints[k]];
+  }
+  return velocity;
+}
+
+/// A pad that may be near the surface.
+struct NearPad {
+  const FleshPad& pad;
+  Vec3 middle = Vec3::Zero();    ///< drawn
+  Vec3 velocity = Vec3::Zero();  ///< tracked
+  double landing_mps = 0.0;
+};
+
+/// As thick as the person moves the pad fast along the normal. Over an edge the normal turns, but
+/// the hand does not land: there the way that the object pushes counts.
+Cushion cushion_under(const TouchSearch& search, const NearPad& near, const Vec3& normal) {
+  const double speed_mps = std::min(std::abs(normal.dot(near.velocity)), near.landing_mps);
+  const Vec3 lift = near.middle - search.tracked.position(near.pad.middle);
+  return {cushion_thickness(speed_mps), normal.dot(lift)};
 }
 
 /// Takes one more point into a patch.
@@ -105,12 +154,14 @@ void join(const PatchTouch& touch, PatchTouch& patch) {
 
 /// Takes in a pad's skin: rows for what is near, and what its part needs to know. Gives the lowest
 /// skin's height.
-double add_pad(const TouchSearch& search, const FleshPad& pad, const PadMemory& known,
+double add_pad(const TouchSearch& search, const NearPad& near, const PadMemory& known,
                const PosedHand& posed, PatchTouches& patches, std::vector<ContactRow>& rows) {
   const Placement& placement = search.object.placement();
   const Vec3 surface_point = placement.to_world(known.plane->point);
   const Vec3 normal = placement.pose.rotation * known.plane->normal;
   const double curvature = known.curvature / placement.scale;
+  const Cushion cushion = cushion_under(search, near, normal);
+  const FleshPad& pad = near.pad;
   double lowest_m = std::numeric_limits<double>::infinity();
   for (std::size_t k = pad.first; k < pad.first + pad.count; ++k) {
     const FleshPoint& point = search.flesh.skin[k];
@@ -119,12 +170,15 @@ double add_pad(const TouchSearch& search, const FleshPad& pad, const PadMemory& 
     PatchTouch& nearest = patches[kNearestSkin];
     if (pad.part || gap_m < nearest.gap_m) {
       const double depth_m = normal.dot(surface_point - search.tracked.position(point));
-      const PatchTouch touch{gap_m, depth_m, &point, surface_point, normal, curvature};
+      const PatchTouch touch{gap_m,  depth_m,   &point,           surface_point,
+                             normal, curvature, cushion.at(gap_m)};
       if (gap_m < nearest.gap_m) nearest = touch;
       if (pad.part) join(touch, patches[index_of(*pad.part)]);
     }
-    if (gap_m > search.row_reach_m || rows.size() == kMostContactRows) continue;
-    ContactRow& row = rows.emplace_back(row_of(search, posed, point, normal));
+    const double cushion_m = cushion.at(gap_m);
+    if (gap_m > search.row_reach_m + cushion_m || rows.size() == kMostContactRows) continue;
+    ContactRow& row = rows.emplace_back(motion_along(posed, point, normal, search.frame));
+    row.cushion_m = cushion_m;
     row.gap_m = gap_m + search.sink_m - kMargin_m;
     row.curvature = curvature;
   }
@@ -146,10 +200,12 @@ void add_pulls(const TouchSearch& search, const PosedHand& posed, const PatchTou
     const bool drawn = patch.point && memory.rows.size() < kMostContactRows;
     memory.pulls[i] = drawn ? pull_share(search, patch, search.pulls_before[i]) : 0.0;
     if (memory.pulls[i] == 0.0) continue;
-    ContactRow& row = memory.rows.emplace_back(row_of(search, posed, *patch.point, patch.normal));
-    row.gap_m = patch.gap_m + search.sink_m - kPullRest_m;
+    ContactRow& row =
+        memory.rows.emplace_back(motion_along(posed, *patch.point, patch.normal, search.frame));
+    row.kind = RowKind::draw_near;
+    row.gap_m = patch.gap_m + search.sink_m - kPullRest_m - patch.cushion_m;
     row.curvature = patch.curvature;
-    row.pull = memory.pulls[i] * kPullStiffness;
+    row.stiffness = memory.pulls[i] * kPullStiffness;
   }
 }
 
@@ -165,20 +221,27 @@ PatchTouches find_touches(const TouchSearch& search, const PosedHand& posed,
   memory.rows.clear();
   count_travel(search.object, posed.hand, memory);
   PatchTouches patches;
+  double fastest_mps = 0.0;
+  for (const Vec3& velocity : search.velocity) {
+    fastest_mps = std::max(fastest_mps, landing_speed(search, velocity));
+  }
+  const double farthest_m = std::max(search.row_reach_m, cushion_thickness(fastest_mps));
   for (std::size_t i = 0; i < search.flesh.pads.size(); ++i) {
     const FleshPad& pad = search.flesh.pads[i];
-    const double reach_m = kStretch * search.scale * pad.radius_m +
-                           std::max(search.row_reach_m, pad.part ? kPullReach_m : 0.0);
+    const double pull_m = pad.part ? kPullReach_m : 0.0;
+    const double radius_m = kStretch * search.scale * pad.radius_m;
     PadMemory& known = memory.pads[i];
-    if (known.free_m - memory.travel_m > reach_m) continue;
-    const Vec3 middle = posed.flesh.position(pad.middle);
-    if (!find_plane(search.object, middle, reach_m, memory.travel_m, known)) continue;
-    const double lowest_m = add_pad(search, pad, known, posed, patches, memory.rows);
+    if (known.free_m - memory.travel_m > radius_m + std::max(farthest_m, pull_m)) continue;
+    NearPad near{pad, posed.flesh.position(pad.middle), velocity_of(search, pad)};
+    near.landing_mps = landing_speed(search, near.velocity);
+    const double near_m = std::max(search.row_reach_m, cushion_thickness(near.landing_mps));
+    const double reach_m = radius_m + std::max(near_m, pull_m);
+    if (!find_plane(search.object, near.middle, reach_m, memory.travel_m, known)) continue;
+    const double lowest_m = add_pad(search, near, known, posed, patches, memory.rows);
     if (pad.part) continue;
     known.same_m = std::max(kSamePlane_m, kSamePlaneOfGap * lowest_m);
-    if (lowest_m <= search.row_reach_m) continue;
-    known.clearance_m =
-        std::max(known.clearance_m, reach_m + kUnseen * (lowest_m - search.row_reach_m));
+    if (lowest_m <= near_m) continue;
+    known.clearance_m = std::max(known.clearance_m, reach_m + kUnseen * (lowest_m - near_m));
     known.free_m = known.clearance_m + memory.travel_m;
   }
   add_pulls(search, posed, patches, memory);

@@ -19,6 +19,7 @@ struct PatchTouch {
   Vec3 surface_point = Vec3::Zero();
   Vec3 normal = Vec3::UnitY();
   double curvature = 0.0;  ///< 1/m
+  double cushion_m = 0.0;  ///< as of ContactRow
 };
 /// Each part's patch, and of all skin the point that is nearest to the surface.
 using PatchTouches = std::array<PatchTouch, kPulls>;
@@ -35,6 +36,8 @@ struct TouchSearch {
   double scale = 1.0;                                   ///< of the tracked hand over the flesh
   double seconds = 0.0;                                 ///< since the last frame
   std::array<double, kPulls> pulls_before{};            ///< `SettleMemory::pulls` of the last frame
+  std::array<Vec3, kJointCount> velocity{};             ///< of the tracked joints, world, smoothed
+  Vec3 push = Vec3::Zero();                             ///< unit, or zero in the air
   double row_reach_m = 0.0;                             ///< skin nearer than this gets a row
   double sink_m = 0.0;                                  ///< so far in is still out
   Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  ///< in which the rows' wrist is counted

@@ -184,6 +184,63 @@ TEST(Settle, AHandThatLeavesABallIsNotThrownBack) {
   EXPECT_LT(most_m, 0.0006);
 }
 
+/// A palm that comes down at 0.2 m/s is braked over some frames, not in one, and then touches.
+TEST(Settle, AHandLandsWithoutAJolt) {
+  for (const Object& object : {plane(), ball()}) {
+    HandCorrector corrector(settling());
+    std::vector<HandPose> drawn;
+    for (int i = 0; i < 60; ++i) {
+      const double depth_m = -0.05 + 0.2 * (i / 90.0);
+      drawn.push_back(corrector.update(pressed_hand(depth_m), object, i * kFrame_ns).pose);
+    }
+    double most_m = 0.0;
+    for (std::size_t i = 2; i < drawn.size(); ++i) {
+      most_m = std::max(most_m, unevenness(drawn[i - 2], drawn[i - 1], drawn[i]));
+    }
+    EXPECT_LT(most_m, 0.0012);
+    EXPECT_LT(lowest_skin(drawn.back(), object), 0.0015);
+  }
+}
+
+/// A finger that the surface lets go of, and one that is drawn to it, take their time.
+TEST(Settle, NoJointOutrunsThePerson) {
+  for (const double speed_mps : {0.1, 0.3}) {
+    HandCorrector corrector(settling());
+    HandPose tracked_before;
+    HandPose drawn_before;
+    for (int i = 0; i < 120; ++i) {
+      const Vec3 along(0.0, 0.0, 0.09 - speed_mps * (i / 90.0));
+      const double depth_m = 0.02 - 0.002 * std::max(0, i - 100);
+      const HandPose tracked = pressed_hand(depth_m, 0.0, along);
+      const HandPose& drawn = corrector.update(tracked, ball(), i * kFrame_ns).pose;
+      if (i > 0) {
+        EXPECT_LT(largest_motion(drawn_before, drawn),
+                  2.5 * largest_motion(tracked_before, tracked) + 0.0002)
+            << "frame " << i << " at " << speed_mps << " m/s";
+      }
+      tracked_before = tracked;
+      drawn_before = drawn;
+    }
+  }
+}
+
+/// How far a hand sinks in says how high it is held, and that how far it sinks in.
+TEST(Settle, ASoftBallIsPressedSteadily) {
+  CorrectorOptions options = settling();
+  options.settle.softness_m = 0.01;
+  HandCorrector corrector(options);
+  for (int i = 0; i < 90; ++i) {
+    const double depth_m = 0.01 + 0.001 * std::min(i, 30);
+    const CorrectedHand& result = corrector.update(pressed_hand(depth_m), ball(), i * kFrame_ns);
+    if (i > 5) {
+      EXPECT_EQ(result.status, HandStatus::corrected) << "frame " << i;
+    }
+    if (i > 60) {
+      EXPECT_LT(lowest_skin(result.pose, ball()), -0.004) << "frame " << i;
+    }
+  }
+}
+
 TEST(Settle, ADeepHandThatIsFoundComesOut) {
   for (const Object& object : {plane(), ball()}) {
     HandCorrector corrector(settling());

@@ -55,20 +55,30 @@ using HandFreedoms = Eigen::Matrix<double, kHandFreedoms, 1>;
   return 6 + 4 * static_cast<Eigen::Index>(digit);
 }
 
-/// One point of the skin against one plane: how its gap grows with the hand's freedoms.
+/// What a row wants of a point of the hand.
+enum class RowKind : std::uint8_t {
+  keep_out,   ///< of the object, and over a cushion where there is one
+  draw_near,  ///< to the surface
+  hold_back,  ///< from going farther in a frame
+};
+
+/// One point of the hand against one plane: how its gap grows with the hand's freedoms.
 struct ContactRow {
-  const FleshPoint* point = nullptr;  ///< of the flesh that is settled
+  RowKind kind = RowKind::keep_out;
+  const FleshPoint* point = nullptr;  ///< lasts as long as the row
   Eigen::Matrix<double, 6, 1> wrist = Eigen::Matrix<double, 6, 1>::Zero();  ///< shift, turn
   DigitFreedoms bend = DigitFreedoms::Zero();
   std::optional<Digit> digit;  ///< whose bend counts
   double gap_m = 0.0;
+  double cushion_m = 0.0;  ///< nearer than this, what keeps out begins softly
   double curvature = 0.0;  ///< of the surface, 1/m; convex above 0
-  double pull = 0.0;       ///< above 0: not kept out but drawn near, with this stiffness
+  double stiffness = 0.0;  ///< of what draws near or holds back
 };
 
 /// A frame as it was settled.
 struct SettledFrame {
   std::optional<HandPose> tracked;
+  HandPose drawn;
   Correction correction;
   Placement object;
   double seconds = 0.0;  ///< since the one before it
@@ -89,6 +99,8 @@ struct SettleMemory {
   std::array<double, kPulls> pulls{};             ///< shares of the full pull, in the last frame
   std::vector<PadMemory> pads;
   std::vector<ContactRow> rows;
+  /// Of the tracked joints against the object, smoothed, m/s; object frame.
+  std::array<Vec3, kJointCount> velocity{};
   std::array<Vec3, kJointCount> joints{};  ///< of the hand as looked at last; object frame
   double travel_m = 0.0;  ///< the sum of what its farthest joint went from look to look
 };
