@@ -113,7 +113,7 @@ struct SettledHand {
   HandPose hand;  ///< bit for bit the tracked one where nothing is to be corrected
   Correction correction;
   Contacts contacts{};
-  bool touches = false;
+  bool touches = false;    ///< or is about to land: some skin is on its cushion
   bool corrected = false;  ///< or touched until just now: the hand is not the tracked one
 };
 
