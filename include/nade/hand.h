@@ -53,7 +53,7 @@ enum class Handedness : std::uint8_t { left, right };
 /// What became of a tracked hand in a frame.
 enum class HandStatus : std::uint8_t {
   free,       ///< nothing touched: the tracked hand, bit for bit
-  corrected,  ///< some part rests on the object
+  corrected,  ///< some part rests on the object, or is braked to land on it
   released,   ///< nothing touched any more, what was left of a correction fades
   untracked,  ///< the tracked hand was missing or could not be used
 };
