@@ -111,7 +111,7 @@ struct Cushion {
 
   /// How far skin is held off the surface that would be `gap_m` away from it. From the cushion's
   /// thickness above the surface to as far below, the tracked skin is brought to rest at an even
-  /// deceleration.
+  /// deceleration. Higher up that fades: skin may be drawn lower than it is tracked.
   [[nodiscard]] double at(double gap_m) const {
     const double way_m = gap_m - lift_m + thickness_m;
     if (way_m <= 0.0) return 0.0;
