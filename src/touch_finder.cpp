@@ -166,16 +166,15 @@ double add_pad(const TouchSearch& search, const NearPad& near, const PadMemory& 
   for (std::size_t k = pad.first; k < pad.first + pad.count; ++k) {
     const FleshPoint& point = search.flesh.skin[k];
     const double gap_m = normal.dot(posed.flesh.position(point) - surface_point);
+    const double cushion_m = cushion.at(gap_m);
     lowest_m = std::min(lowest_m, gap_m);
     PatchTouch& nearest = patches[kNearestSkin];
     if (pad.part || gap_m < nearest.gap_m) {
       const double depth_m = normal.dot(surface_point - search.tracked.position(point));
-      const PatchTouch touch{gap_m,  depth_m,   &point,           surface_point,
-                             normal, curvature, cushion.at(gap_m)};
+      const PatchTouch touch{gap_m, depth_m, &point, surface_point, normal, curvature, cushion_m};
       if (gap_m < nearest.gap_m) nearest = touch;
       if (pad.part) join(touch, patches[index_of(*pad.part)]);
     }
-    const double cushion_m = cushion.at(gap_m);
     if (gap_m > search.row_reach_m + cushion_m || rows.size() == kMostContactRows) continue;
     ContactRow& row = rows.emplace_back(motion_along(posed, point, normal, search.frame));
     row.cushion_m = cushion_m;
