@@ -43,12 +43,12 @@ constexpr double kWallStiffness = 1e5;
 /// Turns and bends follow with this time constant.
 constexpr double kViscosity_s = 0.025;
 /// And shifts along the surface with this.
-constexpr double kSlideTime_s = 0.05;
+constexpr double kSlideTime_s = 0.15;
 /// In the air, all of a correction goes with this.
 constexpr double kReleaseTime_s = 0.03;
 /// No joint goes farther in a frame than so many times the tracked hand's fastest, and a little
 /// more, unless the object pushes harder than this holds it back.
-constexpr double kFastest = 1.9;
+constexpr double kFastest = 1.8;
 /// What the tracked joints do against the object is smoothed over this time.
 constexpr double kVelocityTime_s = 0.03;
 /// The direction of the object's push is smoothed over this time.
@@ -84,7 +84,7 @@ class Settling {
         options_(options),
         memory_(memory),
         model_(measure_model(tracked, scale)),
-        search_{flesh, object, pose_flesh(tracked, scale), scale},
+        search_{flesh, object, pose_flesh(tracked, scale), pose_flesh(tracked, scale), scale},
         seconds_(std::clamp(seconds, kShortestFrame_s, kLongestFrame_s)) {
     start();
   }
@@ -200,6 +200,10 @@ void Settling::start() {
     search_.velocity[i] = placement.pose.rotation * memory_.velocity[i];
   }
   if (fresh_) return;
+  const HandPose& drawn = memory_.last.drawn;
+  const Pose carry = placement.pose * memory_.last.object.pose.inverse();
+  search_.before = pose_flesh(moved(drawn, carry), model_.scale);
+  search_.braking = braking_at(motion_m_ / seconds_);
   speed_ = seconds_ / memory_.last.seconds *
            step_between(memory_.before.correction, memory_.last.correction, search_.frame);
 }

@@ -15,16 +15,19 @@ constexpr double kMargin_m = 0.0002;
 // with time.
 constexpr double kPullRest_m = 0.001;
 constexpr double kPullFade_m = 0.01;
-constexpr double kPullStart_m = -0.001;
+constexpr double kPullStart_m = -0.004;
 constexpr double kPullFull_m = 0.011;
-constexpr double kPullTime_s = 0.1;
+constexpr double kPullTime_s = 0.05;
 constexpr double kPullStiffness = 8e4;
 
 // Skin lands on a cushion and leaves it by the same way: at rest so thick, and thicker by the way
-// that it goes in so long.
+// that it goes in so long. It never goes quite flat.
 constexpr double kThinnest_m = 0.0005;
-constexpr double kThickest_m = 0.012;
+constexpr double kThickest_m = 0.014;
 constexpr double kLandingTime_s = 0.06;
+constexpr double kFlat_m = 0.0003;
+/// Drawn skin that comes down by itself brakes no less than this.
+constexpr double kBraking_mpss = 4.0;
 
 /// A pad's plane serves for as long as the pad stays within this, or within this share of how far
 /// its skin is from touching.
@@ -133,6 +136,7 @@ Vec3 velocity_of(const TouchSearch& search, const FleshPad& pad) {
 struct NearPad {
   const FleshPad& pad;
   Vec3 middle = Vec3::Zero();    ///< drawn
+  Vec3 way = Vec3::Zero();       ///< drawn, since the last frame
   Vec3 velocity = Vec3::Zero();  ///< tracked
   double landing_mps = 0.0;
 };
@@ -143,6 +147,17 @@ Cushion cushion_under(const TouchSearch& search, const NearPad& near, const Vec3
   const double speed_mps = std::min(std::abs(normal.dot(near.velocity)), near.landing_mps);
   const Vec3 lift = near.middle - search.tracked.position(near.pad.middle);
   return {cushion_thickness(speed_mps), normal.dot(lift)};
+}
+
+/// How far a pad's skin is held off the surface that would be `gap_m` away from it.
+double cushion_at(const TouchSearch& search, const NearPad& near, const Vec3& normal,
+                  const Cushion& cushion, double gap_m) {
+  const double held_off_m = std::max(kFlat_m, cushion.at(gap_m));
+  const double before_m = gap_m - normal.dot(near.way);
+  const double braking_mpss = search.braking.deceleration_mpss;
+  if (braking_mpss == 0.0 || before_m <= 0.0 || before_m >= kThickest_m) return held_off_m;
+  const double nearest_m = before_m - search.seconds * std::sqrt(2.0 * braking_mpss * before_m);
+  return std::max(held_off_m, nearest_m);
 }
 
 /// Takes one more point into a patch.
@@ -166,7 +181,7 @@ double add_pad(const TouchSearch& search, const NearPad& near, const PadMemory& 
   for (std::size_t k = pad.first; k < pad.first + pad.count; ++k) {
     const FleshPoint& point = search.flesh.skin[k];
     const double gap_m = normal.dot(posed.flesh.position(point) - surface_point);
-    const double cushion_m = cushion.at(gap_m);
+    const double cushion_m = cushion_at(search, near, normal, cushion, gap_m);
     lowest_m = std::min(lowest_m, gap_m);
     PatchTouch& nearest = patches[kNearestSkin];
     if (pad.part || gap_m < nearest.gap_m) {
@@ -215,6 +230,13 @@ double smoothstep(double from, double to, double x) noexcept {
   return t * t * (3.0 - 2.0 * t);
 }
 
+Braking braking_at(double speed_mps) noexcept {
+  const double squared = speed_mps * speed_mps;
+  const double cushioned_mpss = squared / (2.0 * cushion_thickness(speed_mps));
+  const double braking_mpss = std::max(kBraking_mpss, cushioned_mpss);
+  return {braking_mpss, squared / (2.0 * braking_mpss)};
+}
+
 PatchTouches find_touches(const TouchSearch& search, const PosedHand& posed,
                           SettleMemory& memory) noexcept {
   memory.rows.clear();
@@ -224,18 +246,22 @@ PatchTouches find_touches(const TouchSearch& search, const PosedHand& posed,
   for (const Vec3& velocity : search.velocity) {
     fastest_mps = std::max(fastest_mps, landing_speed(search, velocity));
   }
-  const double farthest_m = std::max(search.row_reach_m, cushion_thickness(fastest_mps));
+  const double farthest_m = std::max(
+      {search.row_reach_m, search.braking.way_m, cushion_thickness(fastest_mps)});
   for (std::size_t i = 0; i < search.flesh.pads.size(); ++i) {
     const FleshPad& pad = search.flesh.pads[i];
     const double pull_m = pad.part ? kPullReach_m : 0.0;
     const double radius_m = kStretch * search.scale * pad.radius_m;
     PadMemory& known = memory.pads[i];
     if (known.free_m - memory.travel_m > radius_m + std::max(farthest_m, pull_m)) continue;
-    NearPad near{pad, posed.flesh.position(pad.middle), velocity_of(search, pad)};
+    NearPad near{pad, posed.flesh.position(pad.middle)};
+    near.velocity = velocity_of(search, pad);
     near.landing_mps = landing_speed(search, near.velocity);
-    const double near_m = std::max(search.row_reach_m, cushion_thickness(near.landing_mps));
+    const double near_m = std::max({search.row_reach_m, search.braking.way_m,
+                                    cushion_thickness(near.landing_mps)});
     const double reach_m = radius_m + std::max(near_m, pull_m);
     if (!find_plane(search.object, near.middle, reach_m, memory.travel_m, known)) continue;
+    near.way = near.middle - search.before.position(pad.middle);
     const double lowest_m = add_pad(search, near, known, posed, patches, memory.rows);
     if (pad.part) continue;
     known.same_m = std::max(kSamePlane_m, kSamePlaneOfGap * lowest_m);

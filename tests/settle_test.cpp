@@ -202,6 +202,24 @@ TEST(Settle, AHandLandsWithoutAJolt) {
   }
 }
 
+/// One end of a tilted hand lands first. Then it turns about that by itself, and lands once more.
+TEST(Settle, ATiltedHandLandsWithoutAJolt) {
+  for (const double tilt_rad : {-0.5, -0.25, 0.25, 0.5}) {
+    HandCorrector corrector(settling());
+    std::vector<HandPose> drawn;
+    for (int i = 0; i < 60; ++i) {
+      const double depth_m = -0.07 + 0.2 * (i / 90.0);
+      drawn.push_back(
+          corrector.update(pressed_hand(depth_m, tilt_rad), plane(), i * kFrame_ns).pose);
+    }
+    double most_m = 0.0;
+    for (std::size_t i = 2; i < drawn.size(); ++i) {
+      most_m = std::max(most_m, unevenness(drawn[i - 2], drawn[i - 1], drawn[i]));
+    }
+    EXPECT_LT(most_m, 0.0011) << tilt_rad << " rad";
+  }
+}
+
 /// A finger that the surface lets go of, and one that is drawn to it, take their time.
 TEST(Settle, NoJointOutrunsThePerson) {
   for (const double speed_mps : {0.1, 0.3}) {
