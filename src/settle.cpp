@@ -203,7 +203,7 @@ void Settling::start() {
   const HandPose& drawn = memory_.last.drawn;
   const Pose carry = placement.pose * memory_.last.object.pose.inverse();
   search_.before = pose_flesh(moved(drawn, carry), model_.scale);
-  search_.braking = braking_at(motion_m_ / seconds_);
+  search_.braking_mpss = braking_at(motion_m_ / seconds_);
   speed_ = seconds_ / memory_.last.seconds *
            step_between(memory_.before.correction, memory_.last.correction, search_.frame);
 }

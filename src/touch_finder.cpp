@@ -37,6 +37,8 @@ constexpr double kSamePlaneOfGap = 0.2;
 constexpr double kFarSlack_m = 0.02;
 /// Nor is one that faces away, until it could have come this share of what its skin lacks to a row.
 constexpr double kUnseen = 0.5;
+/// At an edge the nearest point's normal turns in a moment. A pad's follows over about this way.
+constexpr double kTurningWay_m = 0.002;
 /// A pad's curvature is learned from ways of about this length on; no sharper.
 constexpr double kLeastWay_m = 0.002;
 constexpr double kSharpest = 100.0;
@@ -52,6 +54,13 @@ PadPlane plane_at(const SurfacePoint& nearest, const Vec3& middle) {
   const double smooth = smoothstep(0.95, 0.995, outward.dot(nearest.normal));
   plane.normal = (smooth * nearest.normal + (1.0 - smooth) * outward).normalized();
   return plane;
+}
+
+/// Lets the normal follow from where it was at the last look; across a thin sheet it turns at once.
+void turn_slowly(const PadPlane& before, double way_m, PadPlane& now) {
+  if (before.normal.dot(now.normal) <= 0.0) return;
+  const double share = 1.0 - std::exp(-way_m / kTurningWay_m);
+  now.normal = (before.normal + share * (now.normal - before.normal)).normalized();
 }
 
 /// Takes in how the normal turned since the last look. A way shorter than the least says little.
@@ -81,7 +90,10 @@ bool find_plane(const Object& object, const Vec3& middle_world, double reach_m, 
   known.free_m = known.clearance_m + travel_m;
   if (!nearest || known.clearance_m > reach_m) return false;
   known.plane = plane_at(*nearest, middle);
-  if (before) learn_curvature(*before, *known.plane, known);
+  if (before) {
+    turn_slowly(*before, scale * (middle - before->middle).norm(), *known.plane);
+    learn_curvature(*before, *known.plane, known);
+  }
   known.same_m = kSamePlane_m;
   return true;
 }
@@ -154,10 +166,9 @@ double cushion_at(const TouchSearch& search, const NearPad& near, const Vec3& no
                   const Cushion& cushion, double gap_m) {
   const double held_off_m = std::max(kFlat_m, cushion.at(gap_m));
   const double before_m = gap_m - normal.dot(near.way);
-  const double braking_mpss = search.braking.deceleration_mpss;
-  if (braking_mpss == 0.0 || before_m <= 0.0 || before_m >= kThickest_m) return held_off_m;
-  const double nearest_m = before_m - search.seconds * std::sqrt(2.0 * braking_mpss * before_m);
-  return std::max(held_off_m, nearest_m);
+  if (search.braking_mpss == 0.0 || before_m <= 0.0 || before_m >= kThickest_m) return held_off_m;
+  const double landing_mps = std::sqrt(2.0 * search.braking_mpss * before_m);
+  return std::max(held_off_m, before_m - landing_mps * search.seconds);
 }
 
 /// Takes one more point into a patch.
@@ -230,11 +241,9 @@ double smoothstep(double from, double to, double x) noexcept {
   return t * t * (3.0 - 2.0 * t);
 }
 
-Braking braking_at(double speed_mps) noexcept {
-  const double squared = speed_mps * speed_mps;
-  const double cushioned_mpss = squared / (2.0 * cushion_thickness(speed_mps));
-  const double braking_mpss = std::max(kBraking_mpss, cushioned_mpss);
-  return {braking_mpss, squared / (2.0 * braking_mpss)};
+double braking_at(double speed_mps) noexcept {
+  const double cushioned_mpss = speed_mps * speed_mps / (2.0 * cushion_thickness(speed_mps));
+  return std::max(kBraking_mpss, cushioned_mpss);
 }
 
 PatchTouches find_touches(const TouchSearch& search, const PosedHand& posed,
@@ -246,8 +255,7 @@ PatchTouches find_touches(const TouchSearch& search, const PosedHand& posed,
   for (const Vec3& velocity : search.velocity) {
     fastest_mps = std::max(fastest_mps, landing_speed(search, velocity));
   }
-  const double farthest_m = std::max(
-      {search.row_reach_m, search.braking.way_m, cushion_thickness(fastest_mps)});
+  const double farthest_m = std::max(search.row_reach_m, cushion_thickness(fastest_mps));
   for (std::size_t i = 0; i < search.flesh.pads.size(); ++i) {
     const FleshPad& pad = search.flesh.pads[i];
     const double pull_m = pad.part ? kPullReach_m : 0.0;
@@ -257,8 +265,7 @@ PatchTouches find_touches(const TouchSearch& search, const PosedHand& posed,
     NearPad near{pad, posed.flesh.position(pad.middle)};
     near.velocity = velocity_of(search, pad);
     near.landing_mps = landing_speed(search, near.velocity);
-    const double near_m = std::max({search.row_reach_m, search.braking.way_m,
-                                    cushion_thickness(near.landing_mps)});
+    const double near_m = std::max(search.row_reach_m, cushion_thickness(near.landing_mps));
     const double reach_m = radius_m + std::max(near_m, pull_m);
     if (!find_plane(search.object, near.middle, reach_m, memory.travel_m, known)) continue;
     near.way = near.middle - search.before.position(pad.middle);

@@ -28,30 +28,26 @@ inline constexpr std::size_t kNearestSkin = kPartCount;
 /// From farther than this a patch is not drawn to the surface.
 inline constexpr double kPullReach_m = 0.03;
 
-/// How drawn skin lands that comes down by itself, as a finger does that the palm has lifted: at an
-/// even deceleration.
-struct Braking {
-  double deceleration_mpss = 0.0;
-  double way_m = 0.0;  ///< from the speed of the tracked hand
-};
-[[nodiscard]] Braking braking_at(double speed_mps) noexcept;
-
 /// What a frame's rounds look for, and where.
 struct TouchSearch {
   const HandFlesh& flesh;
   const Object& object;
   PosedFlesh tracked;
-  PosedFlesh before;  ///< the last frame's drawn hand, carried along with the object
-  double scale = 1.0;                                   ///< of the tracked hand over the flesh
-  double seconds = 0.0;                                 ///< since the last frame
+  PosedFlesh before;     ///< the last frame's drawn hand, carried along with the object
+  double scale = 1.0;    ///< of the tracked hand over the flesh
+  double seconds = 0.0;  ///< since the last frame
   std::array<double, kPulls> pulls_before{};            ///< `SettleMemory::pulls` of the last frame
   std::array<Vec3, kJointCount> velocity{};             ///< of the tracked joints, world, smoothed
-  Braking braking = {};                                 ///< none for a hand found anew
+  double braking_mpss = 0.0;                            ///< none for a hand found anew
   Vec3 push = Vec3::Zero();                             ///< unit, or zero in the air
   double row_reach_m = 0.0;                             ///< skin nearer than this gets a row
   double sink_m = 0.0;                                  ///< so far in is still out
   Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  ///< in which the rows' wrist is counted
 };
+
+/// The even deceleration at which drawn skin lands that comes down by itself, as a finger does that
+/// the palm has lifted. `speed_mps` is the tracked hand's.
+[[nodiscard]] double braking_at(double speed_mps) noexcept;
 
 /// Fills `memory.rows` and `memory.pulls` for a posed hand.
 [[nodiscard]] PatchTouches find_touches(const TouchSearch& search, const PosedHand& posed,
