@@ -26,7 +26,7 @@ const DigitFreedoms kThumbStiffness{1.0, 1.0, 2.0, 2.0};
 
 /// Skin farther than this from its plane, and than this share of what the hand has moved, does not
 /// come to touch it in the frame.
-constexpr double kRowReach_m = 0.0012;
+constexpr double kRowReach_m = 0.0009;
 constexpr double kRowReachOfMotion = 0.4;
 
 // How fast a correction may change where nothing pushes: so many times the tracked hand's own
