@@ -63,9 +63,10 @@ void turn_slowly(const PadPlane& before, double way_m, PadPlane& now) {
   now.normal = (before.normal + share * (now.normal - before.normal)).normalized();
 }
 
-/// Takes in how the normal turned since the last look. A way shorter than the least says little.
-void learn_curvature(const PadPlane& before, const PadPlane& now, PadMemory& known) {
-  const Vec3 way = now.middle - before.middle;
+/// Takes in how the normal turned on the way since the last look, metres in the object's frame. A
+/// way shorter than the least says little.
+void learn_curvature(const PadPlane& before, const Vec3& way, const PadPlane& now,
+                     PadMemory& known) {
   const double trust = way.squaredNorm() / (way.squaredNorm() + kLeastWay_m * kLeastWay_m);
   const double seen = way.dot(now.normal - before.normal) / (way.squaredNorm() + 1e-18);
   known.curvature += trust * (std::clamp(seen, -kSharpest, kSharpest) - known.curvature);
@@ -91,8 +92,9 @@ bool find_plane(const Object& object, const Vec3& middle_world, double reach_m, 
   if (!nearest || known.clearance_m > reach_m) return false;
   known.plane = plane_at(*nearest, middle);
   if (before) {
-    turn_slowly(*before, scale * (middle - before->middle).norm(), *known.plane);
-    learn_curvature(*before, *known.plane, known);
+    const Vec3 way = scale * (middle - before->middle);
+    turn_slowly(*before, way.norm(), *known.plane);
+    learn_curvature(*before, way, *known.plane, known);
   }
   known.same_m = kSamePlane_m;
   return true;
@@ -185,7 +187,6 @@ double add_pad(const TouchSearch& search, const NearPad& near, const PadMemory& 
   const Placement& placement = search.object.placement();
   const Vec3 surface_point = placement.to_world(known.plane->point);
   const Vec3 normal = placement.pose.rotation * known.plane->normal;
-  const double curvature = known.curvature / placement.scale;
   const Cushion cushion = cushion_under(search, near, normal);
   const FleshPad& pad = near.pad;
   double lowest_m = std::numeric_limits<double>::infinity();
@@ -197,7 +198,8 @@ double add_pad(const TouchSearch& search, const NearPad& near, const PadMemory& 
     PatchTouch& nearest = patches[kNearestSkin];
     if (pad.part || gap_m < nearest.gap_m) {
       const double depth_m = normal.dot(surface_point - search.tracked.position(point));
-      const PatchTouch touch{gap_m, depth_m, &point, surface_point, normal, curvature, cushion_m};
+      const PatchTouch touch{gap_m,  depth_m,         &point,   surface_point,
+                             normal, known.curvature, cushion_m};
       if (gap_m < nearest.gap_m) nearest = touch;
       if (pad.part) join(touch, patches[index_of(*pad.part)]);
     }
@@ -205,7 +207,7 @@ double add_pad(const TouchSearch& search, const NearPad& near, const PadMemory& 
     ContactRow& row = rows.emplace_back(motion_along(posed, point, normal, search.frame));
     row.cushion_m = cushion_m;
     row.gap_m = gap_m + search.sink_m - kMargin_m;
-    row.curvature = curvature;
+    row.curvature = known.curvature;
   }
   return lowest_m;
 }

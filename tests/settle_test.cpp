@@ -202,6 +202,23 @@ TEST(Settle, AHandLandsWithoutAJolt) {
   }
 }
 
+/// A mesh in millimetres is drawn at a thousandth of its size.
+TEST(Settle, AnObjectsOwnUnitsDoNotMatter) {
+  const SphereSurface in_metres(0.06);
+  const SphereSurface in_millimetres(60.0);
+  HandCorrector first(settling());
+  HandCorrector second(settling());
+  for (int i = 0; i < 60; ++i) {
+    const Vec3 palm(0.001 * (i - 30), 0.04, 0.04);
+    const HandPose tracked = test::placed_hand(gripping_hand(), palm, Quat::Identity());
+    const CorrectedHand& one = first.update(tracked, Object(in_metres), kFrame_ns * i);
+    const CorrectedHand& other =
+        second.update(tracked, Object(in_millimetres, {Pose{}, 0.001}), kFrame_ns * i);
+    ASSERT_EQ(one.status, HandStatus::corrected) << "frame " << i;
+    ASSERT_LT(largest_motion(one.pose, other.pose), 1e-5) << "frame " << i;
+  }
+}
+
 /// One end of a tilted hand lands first. Then it turns about that by itself, and lands once more.
 TEST(Settle, ATiltedHandLandsWithoutAJolt) {
   for (const double tilt_rad : {-0.5, -0.25, 0.25, 0.5}) {
