@@ -84,7 +84,7 @@ class Settling {
         options_(options),
         memory_(memory),
         model_(measure_model(tracked, scale)),
-        search_{flesh, object, pose_flesh(tracked, scale), pose_flesh(tracked, scale), scale},
+        search_{flesh, object, pose_flesh(tracked, scale), {}, scale},
         seconds_(std::clamp(seconds, kShortestFrame_s, kLongestFrame_s)) {
     start();
   }
@@ -113,6 +113,7 @@ class Settling {
 
  private:
   void start();
+  [[nodiscard]] HandPose carried(const HandPose& hand, const SettledFrame& then) const;
   void find_motion();
   void start_outside();
   [[nodiscard]] Correction after(const HandFreedoms& step) const;
@@ -144,22 +145,27 @@ class Settling {
   bool touches_ = false;
 };
 
+/// A hand of an earlier frame, carried along with the object since then.
+HandPose Settling::carried(const HandPose& hand, const SettledFrame& then) const {
+  return moved(hand, object_.placement().pose * then.object.pose.inverse());
+}
+
 /// How the tracked hand moves, and how the correction did.
 void Settling::find_motion() {
   const SettledFrame& last = memory_.last;
   const SettledFrame& before = memory_.before;
   if (!last.tracked) return;
   const HandPose& now = model_.tracked;
-  const Pose& object = object_.placement().pose;
-  const HandPose carried = moved(*last.tracked, object * last.object.pose.inverse());
-  motion_m_ = std::max(largest_motion(*last.tracked, now), largest_motion(carried, now));
+  const Quat& frame = object_.placement().pose.rotation;
+  const HandPose along = carried(*last.tracked, last);
+  motion_m_ = std::max(largest_motion(*last.tracked, now), largest_motion(along, now));
   const double follow = before.tracked ? 1.0 - std::exp(-seconds_ / kVelocityTime_s) : 1.0;
-  follow_velocity(carried, now, object.rotation, seconds_, follow, memory_.velocity);
+  follow_velocity(along, now, frame, seconds_, follow, memory_.velocity);
   if (!before.tracked) return;
-  const HandPose earlier = moved(*before.tracked, object * before.object.pose.inverse());
+  const HandPose earlier = carried(*before.tracked, before);
   const double ratio = seconds_ / last.seconds;
   gain_m_ = std::max(largest_gain(*before.tracked, *last.tracked, now, ratio),
-                     largest_gain(earlier, carried, now, ratio));
+                     largest_gain(earlier, along, now, ratio));
 }
 
 void Settling::start() {
@@ -200,9 +206,7 @@ void Settling::start() {
     search_.velocity[i] = placement.pose.rotation * memory_.velocity[i];
   }
   if (fresh_) return;
-  const HandPose& drawn = memory_.last.drawn;
-  const Pose carry = placement.pose * memory_.last.object.pose.inverse();
-  search_.before = pose_flesh(moved(drawn, carry), model_.scale);
+  search_.before = pose_flesh(carried(memory_.last.drawn, memory_.last), model_.scale);
   search_.braking_mpss = braking_at(motion_m_ / seconds_);
   speed_ = seconds_ / memory_.last.seconds *
            step_between(memory_.before.correction, memory_.last.correction, search_.frame);

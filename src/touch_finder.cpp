@@ -167,8 +167,9 @@ Cushion cushion_under(const TouchSearch& search, const NearPad& near, const Vec3
 double cushion_at(const TouchSearch& search, const NearPad& near, const Vec3& normal,
                   const Cushion& cushion, double gap_m) {
   const double held_off_m = std::max(kFlat_m, cushion.at(gap_m));
+  if (!search.before) return held_off_m;
   const double before_m = gap_m - normal.dot(near.way);
-  if (search.braking_mpss == 0.0 || before_m <= 0.0 || before_m >= kThickest_m) return held_off_m;
+  if (before_m <= 0.0 || before_m >= kThickest_m) return held_off_m;
   const double landing_mps = std::sqrt(2.0 * search.braking_mpss * before_m);
   return std::max(held_off_m, before_m - landing_mps * search.seconds);
 }
@@ -270,7 +271,7 @@ PatchTouches find_touches(const TouchSearch& search, const PosedHand& posed,
     const double near_m = std::max(search.row_reach_m, cushion_thickness(near.landing_mps));
     const double reach_m = radius_m + std::max(near_m, pull_m);
     if (!find_plane(search.object, near.middle, reach_m, memory.travel_m, known)) continue;
-    near.way = near.middle - search.before.position(pad.middle);
+    if (search.before) near.way = near.middle - search.before->position(pad.middle);
     const double lowest_m = add_pad(search, near, known, posed, patches, memory.rows);
     if (pad.part) continue;
     known.same_m = std::max(kSamePlane_m, kSamePlaneOfGap * lowest_m);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 
 #include "nade/settle.h"
 #include "posed_hand.h"
@@ -33,12 +34,13 @@ struct TouchSearch {
   const HandFlesh& flesh;
   const Object& object;
   PosedFlesh tracked;
-  PosedFlesh before;     ///< the last frame's drawn hand, carried along with the object
-  double scale = 1.0;    ///< of the tracked hand over the flesh
-  double seconds = 0.0;  ///< since the last frame
+  /// The last frame's drawn hand, carried along with the object; none for a hand found anew.
+  std::optional<PosedFlesh> before;
+  double scale = 1.0;                                   ///< of the tracked hand over the flesh
+  double seconds = 0.0;                                 ///< since the last frame
   std::array<double, kPulls> pulls_before{};            ///< `SettleMemory::pulls` of the last frame
   std::array<Vec3, kJointCount> velocity{};             ///< of the tracked joints, world, smoothed
-  double braking_mpss = 0.0;                            ///< none for a hand found anew
+  double braking_mpss = 0.0;                            ///< `braking_at` the tracked hand's speed
   Vec3 push = Vec3::Zero();                             ///< unit, or zero in the air
   double row_reach_m = 0.0;                             ///< skin nearer than this gets a row
   double sink_m = 0.0;                                  ///< so far in is still out

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -142,6 +143,14 @@ double unevenness(const HandPose& before, const HandPose& now, const HandPose& a
   return most;
 }
 
+double most_uneven(std::span<const HandPose> drawn) {
+  double most_m = 0.0;
+  for (std::size_t i = 2; i < drawn.size(); ++i) {
+    most_m = std::max(most_m, unevenness(drawn[i - 2], drawn[i - 1], drawn[i]));
+  }
+  return most_m;
+}
+
 /// Where digits reach around a ball, planes alone send bends to and fro, frame after frame.
 TEST(Settle, AHandThatGripsABallAndGoesStraightOnDoesNotTremble) {
   const HandPose hand = gripping_hand();
@@ -176,12 +185,9 @@ TEST(Settle, AHandThatLeavesABallIsNotThrownBack) {
     drawn.push_back(result.pose);
     if (result.status == HandStatus::corrected) free_from = drawn.size();
   }
+  ASSERT_GT(free_from, 0U);
   ASSERT_LT(free_from + 40, drawn.size());
-  double most_m = 0.0;
-  for (std::size_t i = free_from; i + 1 < drawn.size(); ++i) {
-    most_m = std::max(most_m, unevenness(drawn[i - 1], drawn[i], drawn[i + 1]));
-  }
-  EXPECT_LT(most_m, 0.0006);
+  EXPECT_LT(most_uneven(std::span(drawn).subspan(free_from - 1)), 0.0006);
 }
 
 /// A palm that comes down at 0.2 m/s is braked over some frames, not in one, and then touches.
@@ -193,11 +199,7 @@ TEST(Settle, AHandLandsWithoutAJolt) {
       const double depth_m = -0.05 + 0.2 * (i / 90.0);
       drawn.push_back(corrector.update(pressed_hand(depth_m), object, i * kFrame_ns).pose);
     }
-    double most_m = 0.0;
-    for (std::size_t i = 2; i < drawn.size(); ++i) {
-      most_m = std::max(most_m, unevenness(drawn[i - 2], drawn[i - 1], drawn[i]));
-    }
-    EXPECT_LT(most_m, 0.0012);
+    EXPECT_LT(most_uneven(drawn), 0.0012);
     EXPECT_LT(lowest_skin(drawn.back(), object), 0.0015);
   }
 }
@@ -229,11 +231,7 @@ TEST(Settle, ATiltedHandLandsWithoutAJolt) {
       drawn.push_back(
           corrector.update(pressed_hand(depth_m, tilt_rad), plane(), i * kFrame_ns).pose);
     }
-    double most_m = 0.0;
-    for (std::size_t i = 2; i < drawn.size(); ++i) {
-      most_m = std::max(most_m, unevenness(drawn[i - 2], drawn[i - 1], drawn[i]));
-    }
-    EXPECT_LT(most_m, 0.0011) << tilt_rad << " rad";
+    EXPECT_LT(most_uneven(drawn), 0.0011) << tilt_rad << " rad";
   }
 }
 
