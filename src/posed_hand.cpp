@@ -137,6 +137,20 @@ ContactRow motion_along(const PosedHand& posed, const FleshPoint& point, const V
   return row;
 }
 
+JointMotion motion_of(const PosedHand& posed, std::size_t joint) noexcept {
+  const Carrier& carrier = kCarriers[joint];
+  const Vec3& position = posed.hand.joints[joint].position;
+  JointMotion motion;
+  motion.reach = position - posed.hand[Joint::palm].position;
+  motion.digit = carrier.digit;
+  motion.bends = carrier.freedoms;
+  for (std::size_t f = 0; f < carrier.freedoms; ++f) {
+    const DigitAxes& axes = posed.axes[carrier.digit];
+    motion.with_bend[f] = axes.axis[f].cross(position - axes.center[f]);
+  }
+  return motion;
+}
+
 const FleshPoint& joint_point(std::size_t joint) noexcept {
   static const auto kPoints = [] {
     std::array<FleshPoint, kJointCount> all;

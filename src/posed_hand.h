@@ -49,6 +49,16 @@ struct PosedHand {
 /// A joint's origin as a point of the hand.
 [[nodiscard]] const FleshPoint& joint_point(std::size_t joint) noexcept;
 
+/// How a joint moves: with a turn of the wrist about the palm, and with each bend of its digit that
+/// moves it.
+struct JointMotion {
+  Vec3 reach = Vec3::Zero();        ///< from the palm
+  std::size_t digit = kDigitCount;  ///< kDigitCount: none, the joint goes with the wrist
+  std::size_t bends = 0;
+  std::array<Vec3, kDigitFreedoms> with_bend;  ///< a radian, as many as `bends`
+};
+[[nodiscard]] JointMotion motion_of(const PosedHand& posed, std::size_t joint) noexcept;
+
 /// How those numbers themselves grow: each of the wrist's with its own freedom, the turns about
 /// the axes of a frame; the bends' with all of the digit's freedoms, symmetric.
 struct LeverGrowth {

@@ -12,13 +12,13 @@
 namespace nade {
 namespace {
 
-// What the tracked pose is worth. A shift of 2 cm costs as much as bending a knuckle by a radian.
-constexpr double kShiftStiffness = 1.0 / (0.02 * 0.02);
+// What the tracked pose is worth. A shift of 17 mm costs as much as bending a knuckle by a radian.
+constexpr double kShiftStiffness = 1.0 / (0.017 * 0.017);
 /// Along the surface, where the person's own hand says how far.
-constexpr double kSlideStiffness = 3.0 * kShiftStiffness;
+constexpr double kSlideStiffness = 2.4 * kShiftStiffness;
 constexpr double kTurnStiffness = 10.0;
 /// About the surface's normal: the heading is the person's own.
-constexpr double kSpinStiffness = 40.0;
+constexpr double kSpinStiffness = 32.0;
 /// Base abduction, base, middle and last flexion. A finger pushed from below gives way at its
 /// knuckle and keeps its curl; a thumb gives way as a whole.
 const DigitFreedoms kFingerStiffness{4.0, 1.0, 8.0, 12.0};
@@ -32,27 +32,27 @@ constexpr double kRowReachOfMotion = 0.4;
 // How fast a correction may change where nothing pushes: so many times the tracked hand's own
 // motion, and a little more, so that a hand at rest is released as well.
 constexpr double kShiftRate = 1.5;
-constexpr double kTurnRate = 0.75;
+constexpr double kTurnRate = 1.35;
 constexpr double kBendRate = 0.45;
-constexpr double kFreeRate_mps = 0.008;
-/// And how much faster from frame to frame: so many times what the tracked hand gained on its own
-/// speed, and a little more. It may stop at once.
-constexpr double kGainRate = 1.5;
-constexpr double kFreeGain_mpss = 1.5;
+constexpr double kFreeRate_mps = 0.003;
 constexpr double kWallStiffness = 1e5;
+/// Every joint keeps its velocity, so strongly: the cost of 1 m/s^2 squared. Less in the air, where
+/// the hand comes back to the tracked one.
+constexpr double kInertia = 0.96;
+constexpr double kInertiaInAir = 0.48;
 /// Turns and bends follow with this time constant.
-constexpr double kViscosity_s = 0.025;
+constexpr double kViscosity_s = 0.055;
 /// And shifts along the surface with this.
-constexpr double kSlideTime_s = 0.15;
+constexpr double kSlideTime_s = 0.2;
 /// In the air, all of a correction goes with this.
-constexpr double kReleaseTime_s = 0.03;
+constexpr double kReleaseTime_s = 0.085;
 /// No joint goes farther in a frame than so many times the tracked hand's fastest, and a little
 /// more, unless the object pushes harder than this holds it back.
 constexpr double kFastest = 1.8;
 /// What the tracked joints do against the object is smoothed over this time.
-constexpr double kVelocityTime_s = 0.03;
+constexpr double kVelocityTime_s = 0.014;
 /// The direction of the object's push is smoothed over this time.
-constexpr double kPushTime_s = 0.07;
+constexpr double kPushTime_s = 0.1;
 /// The drawn hand strays along the surface by no more than this share of the depth.
 constexpr double kCarriedCone = 0.6;
 
@@ -62,9 +62,11 @@ constexpr double kShortestFrame_s = 0.001;
 constexpr double kLongestFrame_s = 0.05;
 
 constexpr int kRounds = 3;
-constexpr int kFirstRounds = 8;
+constexpr int kFirstRounds = 40;
 /// A round that moves no skin farther than this is the last.
 constexpr double kSettled_m = 0.0002;
+/// In the air, a correction smaller than this is over.
+constexpr double kReleased_m = 0.00002;
 /// A hand that is found anew is got out of the object if it lies no deeper than this.
 constexpr double kDeepest_m = 0.3;
 constexpr double kLongestTurn_rad = 0.3;
@@ -96,11 +98,11 @@ class Settling {
     for (int round = 0; round < rounds; ++round) {
       patches_ = find_touches(search_, posed, memory_);
       if (memory_.rows.empty() && is_none(correction_)) break;
-      HandFreedoms step = least_cost_step(problem());
+      HandFreedoms step = least_cost_step(problem(posed));
       PosedHand next = pose_hand(model_, after(step));
       if (!fresh_ && hold_back(memory_.last.drawn, next.hand, most_m, posed, step, search_.frame,
                                memory_.rows)) {
-        step = least_cost_step(problem());
+        step = least_cost_step(problem(posed));
         next = pose_hand(model_, after(step));
       }
       correction_ = after(step);
@@ -117,7 +119,7 @@ class Settling {
   void find_motion();
   void start_outside();
   [[nodiscard]] Correction after(const HandFreedoms& step) const;
-  [[nodiscard]] SettleProblem problem() const;
+  [[nodiscard]] SettleProblem problem(const PosedHand& posed) const;
   void find_forces(const PosedHand& posed, const HandFreedoms& step);
   [[nodiscard]] bool is_pressed() const;
   void find_push(const Vec3& force);
@@ -135,9 +137,8 @@ class Settling {
 
   bool fresh_ = false;
   // Of the tracked hand, in the world or against the object, whichever is more.
-  double motion_m_ = 0.0;  ///< since the last frame
-  double gain_m_ = 0.0;    ///< of that, beyond what the last frame's speed would have made
-  HandFreedoms speed_ = HandFreedoms::Zero();  ///< of the correction, in such a frame
+  double motion_m_ = 0.0;   ///< since the last frame
+  JointVectors coasted_{};  ///< where the drawn joints would go on to
   Correction last_;
   Correction correction_;
   Vec3 push_ = Vec3::Zero();
@@ -150,22 +151,16 @@ HandPose Settling::carried(const HandPose& hand, const SettledFrame& then) const
   return moved(hand, object_.placement().pose * then.object.pose.inverse());
 }
 
-/// How the tracked hand moves, and how the correction did.
+/// How the tracked hand moves.
 void Settling::find_motion() {
   const SettledFrame& last = memory_.last;
-  const SettledFrame& before = memory_.before;
   if (!last.tracked) return;
   const HandPose& now = model_.tracked;
-  const Quat& frame = object_.placement().pose.rotation;
   const HandPose along = carried(*last.tracked, last);
   motion_m_ = std::max(largest_motion(*last.tracked, now), largest_motion(along, now));
-  const double follow = before.tracked ? 1.0 - std::exp(-seconds_ / kVelocityTime_s) : 1.0;
-  follow_velocity(along, now, frame, seconds_, follow, memory_.velocity);
-  if (!before.tracked) return;
-  const HandPose earlier = carried(*before.tracked, before);
-  const double ratio = seconds_ / last.seconds;
-  gain_m_ = std::max(largest_gain(*before.tracked, *last.tracked, now, ratio),
-                     largest_gain(earlier, along, now, ratio));
+  const double follow = memory_.fresh ? 1.0 : 1.0 - std::exp(-seconds_ / kVelocityTime_s);
+  follow_velocity(along, now, object_.placement().pose.rotation, seconds_, follow,
+                  memory_.velocity);
 }
 
 void Settling::start() {
@@ -182,7 +177,7 @@ void Settling::start() {
   find_motion();
   fresh_ = !memory_.last.tracked || !same_surface || motion_m_ > kTeleport_m;
   if (fresh_) {
-    memory_.last = memory_.before = {};
+    memory_.last = {};
     memory_.push = memory_.carried = memory_.lag = Vec3::Zero();
     memory_.geometric.setZero();
     memory_.velocity.fill(Vec3::Zero());
@@ -208,8 +203,7 @@ void Settling::start() {
   if (fresh_) return;
   search_.before = pose_flesh(carried(memory_.last.drawn, memory_.last), model_.scale);
   search_.braking_mpss = braking_at(motion_m_ / seconds_);
-  speed_ = seconds_ / memory_.last.seconds *
-           step_between(memory_.before.correction, memory_.last.correction, search_.frame);
+  coasted_ = coasted_joints(memory_.last, memory_.drift, tracked, placement, seconds_);
 }
 
 /// A hand that was lost comes back on the side of the object that its palm is nearest to.
@@ -226,7 +220,7 @@ Correction Settling::after(const HandFreedoms& step) const {
   return after_step(correction_, step, search_.frame, model_.ranges);
 }
 
-SettleProblem Settling::problem() const {
+SettleProblem Settling::problem(const PosedHand& posed) const {
   SettleProblem problem;
   problem.rows = memory_.rows;
 
@@ -251,6 +245,8 @@ SettleProblem Settling::problem() const {
       time_s.head<3>() << kSlideTime_s, kSlideTime_s, 0.0;  // out of the object at once, and back
     }
     problem.springs.add(back.cwiseProduct(time_s) / seconds_, -changed);
+    const double inertia = memory_.push.isZero() ? kInertiaInAir : kInertia;
+    add_inertia(coasted_, inertia / (seconds_ * seconds_), posed, search_.frame, problem.springs);
   }
 
   problem.range.low.setConstant(-1.0);
@@ -273,10 +269,8 @@ SettleProblem Settling::problem() const {
   const HandFreedoms rate =
       steps_of(kShiftRate * motion_m_ + slack_m, kTurnRate * motion_m_ + slack_m,
                kBendRate * motion_m_ + slack_m);
-  const double gain_m = kGainRate * gain_m_ + kFreeGain_mpss * seconds_ * seconds_;
-  const HandFreedoms gain = steps_of(gain_m, gain_m, gain_m);
-  problem.rate.low = -rate.cwiseMin(gain - speed_.cwiseMin(0.0)) - changed;
-  problem.rate.high = rate.cwiseMin(gain + speed_.cwiseMax(0.0)) - changed;
+  problem.rate.low = -rate - changed;
+  problem.rate.high = rate - changed;
   return problem;
 }
 
@@ -297,10 +291,10 @@ void Settling::find_forces(const PosedHand& posed, const HandFreedoms& step) {
       wrist -= force * growth.wrist;
       if (row.digit) bend[index_of(*row.digit)] -= force * growth.bend;
     }
-    if (gap_m > row.cushion_m) continue;
+    if (gap_m > row.push_reach_m()) continue;
     touches_ = true;
     if (row.kind == RowKind::draw_near) continue;
-    push += (row.cushion_m - gap_m) * (search_.frame * row.wrist.head<3>());
+    push += (row.push_reach_m() - gap_m) * (search_.frame * row.wrist.head<3>());
   }
   // By rows, so that it is no less than the matrix where that is above 0 (Gershgorin).
   memory_.geometric.head<6>() = wrist.cwiseMax(0.0);
@@ -372,15 +366,18 @@ void Settling::remember_surface_motion() {
 }
 
 void Settling::remember_frame(const HandPose& drawn) {
-  memory_.before = memory_.last;
-  if (fresh_) memory_.before.correction = correction_;  // it did not come from anywhere
-  memory_.last = {model_.tracked, drawn, correction_, object_.placement(), seconds_};
+  const SettledFrame now{model_.tracked, drawn, correction_, object_.placement(), seconds_};
+  if (fresh_) memory_.drift.fill(Vec3::Zero());  // it did not come from anywhere
+  if (!fresh_) memory_.drift = drift_between(memory_.last, now);
+  memory_.last = now;
+  memory_.fresh = fresh_;
   memory_.surface = &object_.surface();
   memory_.shape = object_.surface().shape();
 }
 
 SettledHand Settling::finish(const HandPose& posed) {
-  if (!touches_ && reach_of(step_between({}, correction_, search_.frame)) < 1e-7) correction_ = {};
+  const double away_m = reach_of(step_between({}, correction_, search_.frame));
+  if (!touches_ && away_m < kReleased_m) correction_ = {};
   SettledHand settled;
   settled.correction = correction_;
   settled.hand = is_none(correction_) ? model_.tracked : posed;
@@ -411,6 +408,7 @@ SettleMemory settle_memory(const HandFlesh& flesh) {
   memory.rows.reserve(kMostContactRows);
   memory.joints.fill(Vec3::Zero());  // Eigen's vectors begin with whatever was there
   memory.velocity.fill(Vec3::Zero());
+  memory.drift.fill(Vec3::Zero());
   return memory;
 }
 

@@ -1,34 +1,92 @@
 #include "settle_pace.h"
 
 #include <algorithm>
+#include <cmath>
 
-#include "settle_solver.h"
 #include "touch_finder.h"
 
 namespace nade {
 namespace {
 
 constexpr double kHoldStiffness = 1e5;
+/// The time constant with which a drawn joint takes on the tracked one's velocity.
+constexpr double kCoastTime_s = 0.11;
+
+/// From a tracked joint to the drawn one, in the object's frame.
+Vec3 offset_of(const SettledFrame& frame, std::size_t joint) {
+  return frame.object.pose.rotation.conjugate() *
+         (frame.drawn.joints[joint].position - frame.tracked->joints[joint].position);
+}
 
 }  // namespace
 
-double largest_gain(const HandPose& first, const HandPose& second, const HandPose& third,
-                    double ratio) noexcept {
-  double farthest_m = 0.0;
-  for (std::size_t i = 0; i < kJointCount; ++i) {
-    const Vec3 before = second.joints[i].position - first.joints[i].position;
-    const Vec3 after = third.joints[i].position - second.joints[i].position;
-    farthest_m = std::max(farthest_m, (after - ratio * before).norm());
-  }
-  return farthest_m;
-}
-
 void follow_velocity(const HandPose& from, const HandPose& to, const Quat& frame, double seconds,
-                     double share, std::array<Vec3, kJointCount>& velocity) noexcept {
+                     double share, JointVectors& velocity) noexcept {
   for (std::size_t i = 0; i < kJointCount; ++i) {
     const Vec3 way = to.joints[i].position - from.joints[i].position;
     velocity[i] += share * (frame.conjugate() * (way / seconds) - velocity[i]);
   }
+}
+
+JointVectors drift_between(const SettledFrame& before, const SettledFrame& now) noexcept {
+  JointVectors drift;
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    drift[i] = (offset_of(now, i) - offset_of(before, i)) / now.seconds;
+  }
+  return drift;
+}
+
+JointVectors coasted_joints(const SettledFrame& last, const JointVectors& drift,
+                            const HandPose& tracked, const Placement& object,
+                            double seconds) noexcept {
+  const double faded_s = seconds * std::exp(-seconds / kCoastTime_s);
+  JointVectors coasted;
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    const Vec3 offset = offset_of(last, i) + faded_s * drift[i];
+    coasted[i] = tracked.joints[i].position + object.pose.rotation * offset;
+  }
+  return coasted;
+}
+
+void add_inertia(const JointVectors& coasted, double stiffness, const PosedHand& posed,
+                 const Eigen::Matrix3d& frame, Springs& springs) noexcept {
+  // Every joint's spring is as stiff in every direction, so most of the products are sums of cross
+  // products: a shift of the wrist meets every joint alike, a turn w takes one at r along w x r.
+  const Eigen::Matrix3d to_frame = frame.transpose();
+  Vec3 sum = Vec3::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    const JointMotion motion = motion_of(posed, i);
+    const Vec3 reach = to_frame * motion.reach;
+    const Vec3 force = stiffness * (to_frame * (coasted[i] - posed.hand.joints[i].position));
+    sum += reach;
+    squares += reach * reach.transpose();
+    springs.force.head<3>() += force;
+    springs.force.segment<3>(3) += reach.cross(force);
+    std::array<Vec3, kDigitFreedoms> bends;
+    for (std::size_t f = 0; f < motion.bends; ++f) {
+      const auto column = static_cast<Eigen::Index>(f);
+      bends[f] = to_frame * motion.with_bend[f];
+      springs.force[first_freedom(motion.digit) + column] += bends[f].dot(force);
+      auto coupling = springs.stiffness.coupling[motion.digit].col(column);
+      coupling.head<3>() += stiffness * bends[f];
+      coupling.tail<3>() += stiffness * reach.cross(bends[f]);
+      for (std::size_t g = 0; g <= f; ++g) {
+        const auto row = static_cast<Eigen::Index>(g);
+        const double product = stiffness * bends[g].dot(bends[f]);
+        springs.stiffness.digit[motion.digit](row, column) += product;
+        if (g != f) springs.stiffness.digit[motion.digit](column, row) += product;
+      }
+    }
+  }
+  Eigen::Matrix<double, 6, 6>& wrist = springs.stiffness.wrist;
+  Eigen::Matrix3d crossed;
+  crossed << 0.0, sum.z(), -sum.y(), -sum.z(), 0.0, sum.x(), sum.y(), -sum.x(), 0.0;
+  wrist.topLeftCorner<3, 3>().diagonal().array() += stiffness * kJointCount;
+  wrist.topRightCorner<3, 3>() += stiffness * crossed;
+  wrist.bottomLeftCorner<3, 3>() += stiffness * crossed.transpose();
+  wrist.bottomRightCorner<3, 3>() +=
+      stiffness * (squares.trace() * Eigen::Matrix3d::Identity() - squares);
 }
 
 bool hold_back(const HandPose& last, const HandPose& next, double most_m, const PosedHand& posed,

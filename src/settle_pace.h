@@ -5,20 +5,31 @@
 
 #include "nade/settle.h"
 #include "posed_hand.h"
+#include "settle_solver.h"
 
 namespace nade {
 
 // How fast a hand goes from frame to frame. World frame.
 
-/// How far a joint went beyond where it would have gone on from the first two poses, at the most,
-/// if the last step took `ratio` times as long as the one before.
-[[nodiscard]] double largest_gain(const HandPose& first, const HandPose& second,
-                                  const HandPose& third, double ratio) noexcept;
-
 /// Takes a share of each joint's velocity from one pose to the next into a smoothed one, m/s, in
 /// the axes of `frame`.
 void follow_velocity(const HandPose& from, const HandPose& to, const Quat& frame, double seconds,
-                     double share, std::array<Vec3, kJointCount>& velocity) noexcept;
+                     double share, JointVectors& velocity) noexcept;
+
+/// How the drawn joints came away from the tracked ones in a frame, m/s; object frame.
+[[nodiscard]] JointVectors drift_between(const SettledFrame& before,
+                                         const SettledFrame& now) noexcept;
+
+/// Where the drawn joints are if each keeps its way from the tracked one, and what changed of that
+/// in the last frame goes on, a little slower. World frame.
+[[nodiscard]] JointVectors coasted_joints(const SettledFrame& last, const JointVectors& drift,
+                                          const HandPose& tracked, const Placement& object,
+                                          double seconds) noexcept;
+
+/// Gives the hand inertia: springs as stiff as that, 1/m^2, from every joint of `posed` to where it
+/// would coast to. `frame` is that of the step.
+void add_inertia(const JointVectors& coasted, double stiffness, const PosedHand& posed,
+                 const Eigen::Matrix3d& frame, Springs& springs) noexcept;
 
 /// Adds rows that hold back what a step would take farther from the last frame's hand than
 /// `most_m`: of each digit the joint that goes farthest, and the wrist. `next` is the hand after

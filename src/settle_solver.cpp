@@ -3,7 +3,6 @@
 // Based on: Hintermüller, Ito, Kunisch. The primal-dual active set strategy as a semismooth Newton
 // method. 2002.
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,9 +16,9 @@ constexpr int kMostSteps = 16;
 constexpr int kMostSearches = 24;
 /// A change of every freedom by less than this, in metres or radians, is none.
 constexpr double kSmallestChange = 1e-8;
-constexpr double kCushionStiffness = 2e4;
+constexpr double kCushionStiffness = 3.7e4;
 /// A pull grows with the gap as far as this, and is the same from there on.
-constexpr double kPullGrowth_m = 0.003;
+constexpr double kPullGrowth_m = 0.0022;
 
 double along(const ContactRow& row, const HandFreedoms& change) {
   double sum = row.wrist.dot(change.head<6>());
@@ -39,61 +38,16 @@ double stiffness_at(const ContactRow& row, double gap_m) {
     case RowKind::keep_out:
       break;
   }
-  const double cushion = gap_m < row.cushion_m ? kCushionStiffness : 0.0;
-  return gap_m < 0.0 ? kSurfaceStiffness + cushion : cushion;
+  double stiffness = gap_m < 0.0 ? kSurfaceStiffness : 0.0;
+  if (gap_m < row.cushion_m) stiffness += kCushionStiffness;
+  if (gap_m < row.brake_m) stiffness += row.stiffness;
+  return stiffness;
 }
 
 /// How far beyond a wall, signed.
 HandFreedoms beyond(const Walls& walls, const HandFreedoms& step) {
   return (step - walls.high).cwiseMax(0.0) + (step - walls.low).cwiseMin(0.0);
 }
-
-/// The cost's second derivatives: every digit is coupled to the wrist, and to no other digit.
-struct Hessian {
-  Eigen::Matrix<double, 6, 6> wrist = Eigen::Matrix<double, 6, 6>::Zero();
-  std::array<Eigen::Matrix<double, 6, 4>, kDigitCount> coupling;
-  std::array<Eigen::Matrix4d, kDigitCount> digit;
-
-  explicit Hessian(const HandFreedoms& diagonal) {
-    wrist.diagonal() = diagonal.head<6>();
-    for (std::size_t d = 0; d < kDigitCount; ++d) {
-      coupling[d].setZero();
-      digit[d] = diagonal.segment<4>(first_freedom(d)).asDiagonal();
-    }
-  }
-
-  void add(const ContactRow& row, double stiffness) {
-    wrist.noalias() += stiffness * row.wrist * row.wrist.transpose();
-    if (!row.digit) return;
-    const std::size_t d = index_of(*row.digit);
-    coupling[d].noalias() += stiffness * row.wrist * row.bend.transpose();
-    digit[d].noalias() += stiffness * row.bend * row.bend.transpose();
-  }
-
-  /// Eliminates the digits, solves for the wrist, and goes back.
-  [[nodiscard]] HandFreedoms solve(const HandFreedoms& right) const {
-    Eigen::Matrix<double, 6, 6> reduced = wrist;
-    Eigen::Matrix<double, 6, 1> wrist_right = right.head<6>();
-    std::array<Eigen::Matrix<double, 4, 6>, kDigitCount> inverse_coupling;
-    std::array<Eigen::Vector4d, kDigitCount> inverse_right;
-    for (std::size_t d = 0; d < kDigitCount; ++d) {
-      const Eigen::LLT<Eigen::Matrix4d> factor(digit[d]);
-      for (Eigen::Index i = 0; i < 6; ++i) {  // a column at a time is unrolled, a matrix is not
-        inverse_coupling[d].col(i) = factor.solve(coupling[d].row(i).transpose());
-      }
-      inverse_right[d] = factor.solve(right.segment<4>(first_freedom(d)));
-      reduced.noalias() -= coupling[d] * inverse_coupling[d];
-      wrist_right.noalias() -= coupling[d] * inverse_right[d];
-    }
-    HandFreedoms result;
-    result.head<6>() = reduced.llt().solve(wrist_right);
-    for (std::size_t d = 0; d < kDigitCount; ++d) {
-      result.segment<4>(first_freedom(d)) =
-          inverse_right[d] - inverse_coupling[d] * result.head<6>();
-    }
-    return result;
-  }
-};
 
 /// The problem at a step, and its rows' gaps there and along a direction.
 class Descent {
@@ -105,8 +59,8 @@ class Descent {
 
   /// Toward the least cost of the quadratic that holds here.
   [[nodiscard]] HandFreedoms newton_direction() const {
-    HandFreedoms diagonal = problem_.springs.stiffness;
-    HandFreedoms force = -spring_slope(step_);
+    HandFreedoms diagonal = HandFreedoms::Zero();
+    HandFreedoms force = -spring_slope();
     for (const Walls* walls : {&problem_.range, &problem_.rate}) {
       const HandFreedoms over = beyond(*walls, step_);
       for (Eigen::Index i = 0; i < kHandFreedoms; ++i) {
@@ -114,7 +68,8 @@ class Descent {
       }
       force -= walls->stiffness.cwiseProduct(over);
     }
-    Hessian hessian(diagonal);
+    ArrowMatrix hessian = problem_.springs.stiffness;
+    hessian.add_diagonal(diagonal);
     for (std::size_t i = 0; i < count_; ++i) {
       const ContactRow& row = problem_.rows[i];
       const double push = force_at(row, gaps_[i]);
@@ -139,8 +94,8 @@ class Descent {
   [[nodiscard]] const HandFreedoms& step() const { return step_; }
 
  private:
-  [[nodiscard]] HandFreedoms spring_slope(const HandFreedoms& step) const {
-    return problem_.springs.stiffness.cwiseProduct(step) - problem_.springs.force;
+  [[nodiscard]] HandFreedoms spring_slope() const {
+    return problem_.springs.stiffness.times(step_) - problem_.springs.force;
   }
 
   /// First and second derivative of the cost along the direction.
@@ -148,10 +103,10 @@ class Descent {
     double slope;
     double bend;
   };
-  [[nodiscard]] LineSlope slope_at(double length, const HandFreedoms& direction) const {
+  [[nodiscard]] LineSlope slope_at(double length, const HandFreedoms& direction,
+                                   const LineSlope& springs) const {
     const HandFreedoms step = step_ + length * direction;
-    LineSlope result{spring_slope(step).dot(direction),
-                     direction.cwiseAbs2().dot(problem_.springs.stiffness)};
+    LineSlope result{springs.slope + length * springs.bend, springs.bend};
     for (const Walls* walls : {&problem_.range, &problem_.rate}) {
       const HandFreedoms over = beyond(*walls, step);
       for (Eigen::Index i = 0; i < kHandFreedoms; ++i) {
@@ -173,11 +128,13 @@ class Descent {
   [[nodiscard]] double best_length(const HandFreedoms& direction) const {
     constexpr double kFarthest = 2.0;
     constexpr double kFlat = 1e-9;
+    const LineSlope springs{spring_slope().dot(direction),
+                            direction.dot(problem_.springs.stiffness.times(direction))};
     double low = 0.0;
     double high = kFarthest;
     double length = 1.0;
     for (int i = 0; i < kMostSearches; ++i) {
-      const LineSlope at = slope_at(length, direction);
+      const LineSlope at = slope_at(length, direction, springs);
       if (std::abs(at.slope) <= kFlat * at.bend) break;
       (at.slope < 0.0 ? low : high) = length;
       const double next = length - at.slope / at.bend;
@@ -209,7 +166,8 @@ double force_at(const ContactRow& row, double gap_m) noexcept {
       break;
   }
   return -kSurfaceStiffness * std::min(gap_m, 0.0) -
-         kCushionStiffness * std::min(gap_m - row.cushion_m, 0.0);
+         kCushionStiffness * std::min(gap_m - row.cushion_m, 0.0) -
+         row.stiffness * std::min(gap_m - row.brake_m, 0.0);
 }
 
 HandFreedoms least_cost_step(const SettleProblem& problem) noexcept {

@@ -2,19 +2,19 @@
 
 #include <span>
 
+#include "arrow_matrix.h"
 #include "nade/settle.h"
 
 namespace nade {
 
-/// Springs on every freedom: they cost half of stiffness times the square of the step from where
-/// they rest.
+/// Springs on the freedoms: they cost half of step * stiffness * step, less force * step.
 struct Springs {
-  HandFreedoms stiffness = HandFreedoms::Zero();
+  ArrowMatrix stiffness;
   HandFreedoms force = HandFreedoms::Zero();  ///< at no step
 
   /// One more on every freedom, at rest after the step `rest`.
   void add(const HandFreedoms& more, const HandFreedoms& rest) {
-    stiffness += more;
+    stiffness.add_diagonal(more);
     force += more.cwiseProduct(rest);
   }
 };

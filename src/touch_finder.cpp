@@ -13,21 +13,22 @@ constexpr double kMargin_m = 0.0002;
 // What the person pressed in is drawn to the surface until it is this near, from as far as
 // `kPullReach_m`, with a pull that grows to its full strength with the tracked skin's depth, and
 // with time.
-constexpr double kPullRest_m = 0.001;
-constexpr double kPullFade_m = 0.01;
+constexpr double kPullRest_m = 0.00055;
+constexpr double kPullFade_m = 0.015;
 constexpr double kPullStart_m = -0.004;
-constexpr double kPullFull_m = 0.011;
-constexpr double kPullTime_s = 0.05;
-constexpr double kPullStiffness = 8e4;
+constexpr double kPullFull_m = 0.016;
+constexpr double kPullTime_s = 0.072;
+constexpr double kPullStiffness = 6e4;
 
 // Skin lands on a cushion and leaves it by the same way: at rest so thick, and thicker by the way
 // that it goes in so long. It never goes quite flat.
 constexpr double kThinnest_m = 0.0005;
 constexpr double kThickest_m = 0.014;
-constexpr double kLandingTime_s = 0.06;
-constexpr double kFlat_m = 0.0003;
-/// Drawn skin that comes down by itself brakes no less than this.
-constexpr double kBraking_mpss = 4.0;
+constexpr double kLandingTime_s = 0.076;
+constexpr double kFlat_m = 0.0002;
+/// Drawn skin that comes down by itself brakes no less than this, as stiff as a damper.
+constexpr double kBraking_mpss = 3.3;
+constexpr double kBrakeDamping = 490.0;
 
 /// A pad's plane serves for as long as the pad stays within this, or within this share of how far
 /// its skin is from touching.
@@ -40,7 +41,7 @@ constexpr double kUnseen = 0.5;
 /// At an edge the nearest point's normal turns in a moment. A pad's follows over about this way.
 constexpr double kTurningWay_m = 0.002;
 /// A pad's curvature is learned from ways of about this length on; no sharper.
-constexpr double kLeastWay_m = 0.002;
+constexpr double kLeastWay_m = 0.0018;
 constexpr double kSharpest = 100.0;
 /// Skin stretches by no more than this when the hand is posed, and goes no farther than a joint.
 constexpr double kStretch = 1.3;
@@ -163,15 +164,14 @@ Cushion cushion_under(const TouchSearch& search, const NearPad& near, const Vec3
   return {cushion_thickness(speed_mps), normal.dot(lift)};
 }
 
-/// How far a pad's skin is held off the surface that would be `gap_m` away from it.
-double cushion_at(const TouchSearch& search, const NearPad& near, const Vec3& normal,
-                  const Cushion& cushion, double gap_m) {
-  const double held_off_m = std::max(kFlat_m, cushion.at(gap_m));
-  if (!search.before) return held_off_m;
+/// How near to the surface a pad's skin may come in this frame that would be `gap_m` away from it:
+/// so near that it can still be brought to rest above the surface.
+double brake_at(const TouchSearch& search, const NearPad& near, const Vec3& normal, double gap_m) {
+  if (!search.before) return 0.0;
   const double before_m = gap_m - normal.dot(near.way);
-  if (before_m <= 0.0 || before_m >= kThickest_m) return held_off_m;
+  if (before_m <= 0.0 || before_m >= kThickest_m) return 0.0;
   const double landing_mps = std::sqrt(2.0 * search.braking_mpss * before_m);
-  return std::max(held_off_m, before_m - landing_mps * search.seconds);
+  return std::max(0.0, before_m - landing_mps * search.seconds);
 }
 
 /// Takes one more point into a patch.
@@ -194,7 +194,7 @@ double add_pad(const TouchSearch& search, const NearPad& near, const PadMemory& 
   for (std::size_t k = pad.first; k < pad.first + pad.count; ++k) {
     const FleshPoint& point = search.flesh.skin[k];
     const double gap_m = normal.dot(posed.flesh.position(point) - surface_point);
-    const double cushion_m = cushion_at(search, near, normal, cushion, gap_m);
+    const double cushion_m = std::max(kFlat_m, cushion.at(gap_m));
     lowest_m = std::min(lowest_m, gap_m);
     PatchTouch& nearest = patches[kNearestSkin];
     if (pad.part || gap_m < nearest.gap_m) {
@@ -204,10 +204,15 @@ double add_pad(const TouchSearch& search, const NearPad& near, const PadMemory& 
       if (gap_m < nearest.gap_m) nearest = touch;
       if (pad.part) join(touch, patches[index_of(*pad.part)]);
     }
-    if (gap_m > search.row_reach_m + cushion_m || rows.size() == kMostContactRows) continue;
+    const double above_m = gap_m + search.sink_m - kMargin_m;
+    const double brake_m = brake_at(search, near, normal, above_m);
+    const double reach_m = search.row_reach_m + std::max(cushion_m, brake_m);
+    if (gap_m > reach_m || rows.size() == kMostContactRows) continue;
     ContactRow& row = rows.emplace_back(motion_along(posed, point, normal, search.frame));
     row.cushion_m = cushion_m;
-    row.gap_m = gap_m + search.sink_m - kMargin_m;
+    row.brake_m = brake_m;
+    row.stiffness = kBrakeDamping / search.seconds;
+    row.gap_m = above_m;
     row.curvature = known.curvature;
   }
   return lowest_m;

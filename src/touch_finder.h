@@ -39,7 +39,7 @@ struct TouchSearch {
   double scale = 1.0;                                   ///< of the tracked hand over the flesh
   double seconds = 0.0;                                 ///< since the last frame
   std::array<double, kPulls> pulls_before{};            ///< `SettleMemory::pulls` of the last frame
-  std::array<Vec3, kJointCount> velocity{};             ///< of the tracked joints, world, smoothed
+  JointVectors velocity{};                              ///< of the tracked joints, world, smoothed
   double braking_mpss = 0.0;                            ///< `braking_at` the tracked hand's speed
   Vec3 push = Vec3::Zero();                             ///< unit, or zero in the air
   double row_reach_m = 0.0;                             ///< skin nearer than this gets a row

@@ -235,6 +235,25 @@ TEST(Settle, ATiltedHandLandsWithoutAJolt) {
   }
 }
 
+/// At 500 frames a second the brake once undid what drew the fingers down: the thumb hovered 5 mm
+/// above the table.
+TEST(Settle, AHandRestsAlikeAtAnyFrameRate) {
+  const auto rested = [](int rate_hz) {
+    HandCorrector corrector(settling());
+    HandPose drawn;
+    for (int i = 0; i <= 2 * rate_hz; ++i) {
+      const double time_s = static_cast<double>(i) / rate_hz;
+      const HandPose tracked = pressed_hand(std::min(-0.08 + 0.15 * time_s, 0.02));
+      drawn = corrector.update(tracked, plane(), std::llround(1e9 * time_s)).pose;
+    }
+    return drawn;
+  };
+  const HandPose usual = rested(90);
+  for (const int rate_hz : {30, 240, 500}) {
+    EXPECT_LT(largest_motion(usual, rested(rate_hz)), 0.001) << rate_hz << " frames a second";
+  }
+}
+
 /// A finger that the surface lets go of, and one that is drawn to it, take their time.
 TEST(Settle, NoJointOutrunsThePerson) {
   for (const double speed_mps : {0.1, 0.3}) {
@@ -286,11 +305,14 @@ TEST(Settle, AHandOnItsWayOutIsFreeInTheEnd) {
   HandCorrector corrector(settling());
   std::int64_t time_ns = 0;
   HandPose before;
-  for (int i = 0; i <= 300; ++i, time_ns += kFrame_ns) {
-    const HandPose tracked = on_the_way_down(i < 150 ? i : 300 - i, 90, 0.03);
+  for (int i = 0; i <= 330; ++i, time_ns += kFrame_ns) {
+    const HandPose tracked = on_the_way_down(i < 150 ? i : std::max(0, 300 - i), 90, 0.03);
     const CorrectedHand& result = corrector.update(tracked, ball(), time_ns);
     if (i > 0) {
       EXPECT_LT(largest_motion(before, result.pose), 0.009) << "frame " << i;
+    }
+    if (i == 290) {  // a third of a second after it left the ball
+      EXPECT_LT(largest_motion(tracked, result.pose), 0.0005);
     }
     before = result.pose;
   }

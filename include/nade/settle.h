@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -71,8 +72,12 @@ struct ContactRow {
   std::optional<Digit> digit;  ///< whose bend counts
   double gap_m = 0.0;
   double cushion_m = 0.0;  ///< nearer than this, what keeps out begins softly
+  double brake_m = 0.0;    ///< nearer than this, it brakes
   double curvature = 0.0;  ///< of the surface, 1/m; convex above 0
-  double stiffness = 0.0;  ///< of what draws near or holds back
+  double stiffness = 0.0;  ///< of what draws near, holds back or brakes
+
+  /// Nearer than this, what keeps out pushes.
+  [[nodiscard]] double push_reach_m() const { return std::max(cushion_m, brake_m); }
 };
 
 /// A frame as it was settled.
@@ -84,10 +89,13 @@ struct SettledFrame {
   double seconds = 0.0;  ///< since the one before it
 };
 
+/// One for each joint.
+using JointVectors = std::array<Vec3, kJointCount>;
+
 /// What settle_hand remembers of a hand from frame to frame, and room to work in.
 struct SettleMemory {
   SettledFrame last;
-  SettledFrame before;               ///< the one before that
+  bool fresh = false;                ///< whether the hand was found anew in it
   const Surface* surface = nullptr;  ///< the last frame's; only its address counts
   std::uint64_t shape = 0;           ///< the surface's, in the last frame
   Vec3 push = Vec3::Zero();          ///< unit, the way the object pushes; zero in the air
@@ -100,8 +108,9 @@ struct SettleMemory {
   std::vector<PadMemory> pads;
   std::vector<ContactRow> rows;
   /// Of the tracked joints against the object, smoothed, m/s; object frame.
-  std::array<Vec3, kJointCount> velocity{};
-  std::array<Vec3, kJointCount> joints{};  ///< of the hand as looked at last; object frame
+  JointVectors velocity{};
+  JointVectors drift{};   ///< velocity of the drawn joints over the tracked, m/s; object frame
+  JointVectors joints{};  ///< of the hand as looked at last; object frame
   double travel_m = 0.0;  ///< the sum of what its farthest joint went from look to look
 };
 
