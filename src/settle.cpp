@@ -64,7 +64,7 @@ constexpr double kLongestFrame_s = 0.05;
 constexpr int kRounds = 3;
 constexpr int kFirstRounds = 40;
 /// A round that moves no skin farther than this is the last.
-constexpr double kSettled_m = 0.0002;
+constexpr double kSettled_m = 0.0004;
 /// In the air, a correction smaller than this is over.
 constexpr double kReleased_m = 0.00002;
 /// A hand that is found anew is got out of the object if it lies no deeper than this.

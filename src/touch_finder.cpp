@@ -15,7 +15,7 @@ constexpr double kMargin_m = 0.0002;
 // with time.
 constexpr double kPullRest_m = 0.00055;
 constexpr double kPullFade_m = 0.015;
-constexpr double kPullStart_m = -0.004;
+constexpr double kPullStart_m = -0.005;
 constexpr double kPullFull_m = 0.016;
 constexpr double kPullTime_s = 0.072;
 constexpr double kPullStiffness = 6e4;
