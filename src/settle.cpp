@@ -36,8 +36,8 @@ constexpr double kTurnRate = 1.35;
 constexpr double kBendRate = 0.45;
 constexpr double kFreeRate_mps = 0.003;
 constexpr double kWallStiffness = 1e5;
-/// Every joint keeps its velocity, so strongly: the cost of 1 m/s^2 squared. Less in the air, where
-/// the hand comes back to the tracked one.
+/// A joint's mass: a spring of this over the square of the frame's seconds keeps it going. Less in
+/// the air, where the hand comes back to the tracked one.
 constexpr double kInertia = 0.96;
 constexpr double kInertiaInAir = 0.48;
 /// Turns and bends follow with this time constant.
