@@ -235,6 +235,41 @@ TEST(Settle, ATiltedHandLandsWithoutAJolt) {
   }
 }
 
+/// The root of the sum of all joints' squared second differences, of which the metric
+/// `jitter_ratio` is the ratio.
+double jitter(std::span<const HandPose> hands) {
+  double sum = 0.0;
+  for (std::size_t i = 2; i < hands.size(); ++i) {
+    for (std::size_t j = 0; j < kJointCount; ++j) {
+      sum += (hands[i].joints[j].position - 2.0 * hands[i - 1].joints[j].position +
+              hands[i - 2].joints[j].position)
+                 .squaredNorm();
+    }
+  }
+  return std::sqrt(sum);
+}
+
+/// Down onto the surface, ten centimetres ahead, and up again, each from rest to rest.
+TEST(Settle, AStrokeRunsAsCalmlyAsThePersonsOwn) {
+  const auto eased = [](double time_s, double from_s, double seconds) {
+    const double t = std::clamp((time_s - from_s) / seconds, 0.0, 1.0);
+    return t * t * t * (10.0 + t * (6.0 * t - 15.0));
+  };
+  for (const Object& object : {plane(), ball()}) {
+    HandCorrector corrector(settling());
+    std::vector<HandPose> tracked;
+    std::vector<HandPose> drawn;
+    for (int i = 0; i < 260; ++i) {
+      const double time_s = i / 90.0;
+      const double depth_m = -0.05 + 0.07 * (eased(time_s, 0.0, 0.6) - eased(time_s, 2.2, 0.6));
+      const Vec3 along(0.0, 0.0, 0.05 - 0.1 * eased(time_s, 0.6, 1.6));
+      tracked.push_back(pressed_hand(depth_m, 0.0, along));
+      drawn.push_back(corrector.update(tracked.back(), object, i * kFrame_ns).pose);
+    }
+    EXPECT_LT(jitter(drawn), 1.2 * jitter(tracked));
+  }
+}
+
 /// At 500 frames a second the brake once undid what drew the fingers down: the thumb hovered 5 mm
 /// above the table.
 TEST(Settle, AHandRestsAlikeAtAnyFrameRate) {
