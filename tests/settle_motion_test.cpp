@@ -1,0 +1,188 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "nade/corrector.h"
+#include "support/hand_checks.h"
+#include "support/pressed_hand.h"
+
+// How the drawn hand moves from frame to frame.
+
+namespace nade {
+namespace {
+
+using test::ball;
+using test::gripping_hand;
+using test::kFrame_ns;
+using test::lowest_skin;
+using test::plane;
+using test::pressed_hand;
+using test::settling;
+
+/// How far a joint is from halfway between where it was and where it will be.
+double unevenness(const HandPose& before, const HandPose& now, const HandPose& after) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    const Vec3 halfway = 0.5 * (before.joints[i].position + after.joints[i].position);
+    most = std::max(most, (halfway - now.joints[i].position).norm());
+  }
+  return most;
+}
+
+double most_uneven(std::span<const HandPose> drawn) {
+  double most_m = 0.0;
+  for (std::size_t i = 2; i < drawn.size(); ++i) {
+    most_m = std::max(most_m, unevenness(drawn[i - 2], drawn[i - 1], drawn[i]));
+  }
+  return most_m;
+}
+
+/// The root of the sum of all joints' squared second differences, of which the metric
+/// `jitter_ratio` is the ratio.
+double jitter(std::span<const HandPose> hands) {
+  double sum = 0.0;
+  for (std::size_t i = 2; i < hands.size(); ++i) {
+    for (std::size_t j = 0; j < kJointCount; ++j) {
+      sum += (hands[i].joints[j].position - 2.0 * hands[i - 1].joints[j].position +
+              hands[i - 2].joints[j].position)
+                 .squaredNorm();
+    }
+  }
+  return std::sqrt(sum);
+}
+
+/// Where digits reach around a ball, planes alone send bends to and fro, frame after frame.
+TEST(SettleMotion, AHandThatGripsABallAndGoesStraightOnDoesNotTremble) {
+  const HandPose hand = gripping_hand();
+  for (const auto& [radius_m, depth_m] : {std::pair{0.06, 0.02}, {0.06, 0.04}, {0.07, 0.06}}) {
+    const SphereSurface surface(radius_m);
+    HandCorrector corrector(settling());
+    std::vector<HandPose> drawn;
+    for (int i = 0; i < 60; ++i) {
+      const Vec3 palm(0.0005 * (i - 30), radius_m - depth_m, 0.04);
+      const HandPose tracked = test::placed_hand(hand, palm, Quat::Identity());
+      drawn.push_back(corrector.update(tracked, Object(surface), kFrame_ns * i).pose);
+    }
+    std::vector<double> uneven;
+    for (std::size_t i = 1; i + 1 < drawn.size(); ++i) {
+      uneven.push_back(unevenness(drawn[i - 1], drawn[i], drawn[i + 1]));
+    }
+    std::sort(uneven.begin(), uneven.end());
+    EXPECT_LT(uneven[uneven.size() / 2], 0.00015) << radius_m << " m, " << depth_m << " m deep";
+  }
+}
+
+/// A hand that stroked a ball's side and goes straight up has a correction left when it is free.
+TEST(SettleMotion, AHandThatLeavesABallIsNotThrownBack) {
+  HandCorrector corrector(settling());
+  std::vector<HandPose> drawn;
+  std::size_t free_from = 0;
+  for (int i = 0; i < 160; ++i) {
+    const Vec3 along(0.0, 0.0, -0.001 * std::min(i, 60));
+    const double depth_m = 0.02 - 0.002 * std::max(0, i - 80);
+    const CorrectedHand& result =
+        corrector.update(pressed_hand(depth_m, 0.0, along), ball(), i * kFrame_ns);
+    drawn.push_back(result.pose);
+    if (result.status == HandStatus::corrected) free_from = drawn.size();
+  }
+  ASSERT_GT(free_from, 0U);
+  ASSERT_LT(free_from + 40, drawn.size());
+  EXPECT_LT(most_uneven(std::span(drawn).subspan(free_from - 1)), 0.0006);
+}
+
+/// A palm that comes down at 0.2 m/s is braked over some frames, not in one, and then touches.
+TEST(SettleMotion, AHandLandsWithoutAJolt) {
+  for (const Object& object : {plane(), ball()}) {
+    HandCorrector corrector(settling());
+    std::vector<HandPose> drawn;
+    for (int i = 0; i < 60; ++i) {
+      const double depth_m = -0.05 + 0.2 * (i / 90.0);
+      drawn.push_back(corrector.update(pressed_hand(depth_m), object, i * kFrame_ns).pose);
+    }
+    EXPECT_LT(most_uneven(drawn), 0.0012);
+    EXPECT_LT(lowest_skin(drawn.back(), object), 0.0015);
+  }
+}
+
+/// One end of a tilted hand lands first. Then it turns about that by itself, and lands once more.
+TEST(SettleMotion, ATiltedHandLandsWithoutAJolt) {
+  for (const double tilt_rad : {-0.5, -0.25, 0.25, 0.5}) {
+    HandCorrector corrector(settling());
+    std::vector<HandPose> drawn;
+    for (int i = 0; i < 60; ++i) {
+      const double depth_m = -0.07 + 0.2 * (i / 90.0);
+      drawn.push_back(
+          corrector.update(pressed_hand(depth_m, tilt_rad), plane(), i * kFrame_ns).pose);
+    }
+    EXPECT_LT(most_uneven(drawn), 0.0011) << tilt_rad << " rad";
+  }
+}
+
+/// Down onto the surface, ten centimetres ahead, and up again, each from rest to rest.
+TEST(SettleMotion, AStrokeRunsAsCalmlyAsThePersonsOwn) {
+  const auto eased = [](double time_s, double from_s, double seconds) {
+    const double t = std::clamp((time_s - from_s) / seconds, 0.0, 1.0);
+    return t * t * t * (10.0 + t * (6.0 * t - 15.0));
+  };
+  for (const Object& object : {plane(), ball()}) {
+    HandCorrector corrector(settling());
+    std::vector<HandPose> tracked;
+    std::vector<HandPose> drawn;
+    for (int i = 0; i < 260; ++i) {
+      const double time_s = i / 90.0;
+      const double depth_m = -0.05 + 0.07 * (eased(time_s, 0.0, 0.6) - eased(time_s, 2.2, 0.6));
+      const Vec3 along(0.0, 0.0, 0.05 - 0.1 * eased(time_s, 0.6, 1.6));
+      tracked.push_back(pressed_hand(depth_m, 0.0, along));
+      drawn.push_back(corrector.update(tracked.back(), object, i * kFrame_ns).pose);
+    }
+    EXPECT_LT(jitter(drawn), 1.2 * jitter(tracked));
+  }
+}
+
+/// At 500 frames a second the brake once undid what drew the fingers down: the thumb hovered 5 mm
+/// above the table.
+TEST(SettleMotion, AHandRestsAlikeAtAnyFrameRate) {
+  const auto rested = [](int rate_hz) {
+    HandCorrector corrector(settling());
+    HandPose drawn;
+    for (int i = 0; i <= 2 * rate_hz; ++i) {
+      const double time_s = static_cast<double>(i) / rate_hz;
+      const HandPose tracked = pressed_hand(std::min(-0.08 + 0.15 * time_s, 0.02));
+      drawn = corrector.update(tracked, plane(), std::llround(1e9 * time_s)).pose;
+    }
+    return drawn;
+  };
+  const HandPose usual = rested(90);
+  for (const int rate_hz : {30, 240, 500}) {
+    EXPECT_LT(largest_motion(usual, rested(rate_hz)), 0.001) << rate_hz << " frames a second";
+  }
+}
+
+/// A finger that the surface lets go of, and one that is drawn to it, take their time.
+TEST(SettleMotion, NoJointOutrunsThePerson) {
+  for (const double speed_mps : {0.1, 0.3}) {
+    HandCorrector corrector(settling());
+    HandPose tracked_before;
+    HandPose drawn_before;
+    for (int i = 0; i < 120; ++i) {
+      const Vec3 along(0.0, 0.0, 0.09 - speed_mps * (i / 90.0));
+      const double depth_m = 0.02 - 0.002 * std::max(0, i - 100);
+      const HandPose tracked = pressed_hand(depth_m, 0.0, along);
+      const HandPose& drawn = corrector.update(tracked, ball(), i * kFrame_ns).pose;
+      if (i > 0) {
+        EXPECT_LT(largest_motion(drawn_before, drawn),
+                  2.5 * largest_motion(tracked_before, tracked) + 0.0002)
+            << "frame " << i << " at " << speed_mps << " m/s";
+      }
+      tracked_before = tracked;
+      drawn_before = drawn;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace nade
