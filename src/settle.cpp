@@ -98,11 +98,13 @@ class Settling {
     for (int round = 0; round < rounds; ++round) {
       patches_ = find_touches(search_, posed, memory_);
       if (memory_.rows.empty() && is_none(correction_)) break;
-      HandFreedoms step = least_cost_step(problem(posed));
+      SettleProblem problem = problem_at(posed);
+      HandFreedoms step = least_cost_step(problem);
       PosedHand next = pose_hand(model_, after(step));
       if (!fresh_ && hold_back(memory_.last.drawn, next.hand, most_m, posed, step, search_.frame,
                                memory_.rows)) {
-        step = least_cost_step(problem(posed));
+        problem.rows = memory_.rows;
+        step = least_cost_step(problem);
         next = pose_hand(model_, after(step));
       }
       correction_ = after(step);
@@ -115,11 +117,11 @@ class Settling {
 
  private:
   void start();
-  [[nodiscard]] HandPose carried(const HandPose& hand, const SettledFrame& then) const;
+  [[nodiscard]] HandPose carried(const HandPose& hand) const;
   void find_motion();
   void start_outside();
   [[nodiscard]] Correction after(const HandFreedoms& step) const;
-  [[nodiscard]] SettleProblem problem(const PosedHand& posed) const;
+  [[nodiscard]] SettleProblem problem_at(const PosedHand& posed) const;
   void find_forces(const PosedHand& posed, const HandFreedoms& step);
   [[nodiscard]] bool is_pressed() const;
   void find_push(const Vec3& force);
@@ -136,8 +138,9 @@ class Settling {
   double seconds_;
 
   bool fresh_ = false;
-  // Of the tracked hand, in the world or against the object, whichever is more.
-  double motion_m_ = 0.0;   ///< since the last frame
+  /// Of the tracked hand since the last frame, in the world or against the object, whichever is
+  /// more.
+  double motion_m_ = 0.0;
   JointVectors coasted_{};  ///< where the drawn joints would go on to
   Correction last_;
   Correction correction_;
@@ -146,9 +149,9 @@ class Settling {
   bool touches_ = false;
 };
 
-/// A hand of an earlier frame, carried along with the object since then.
-HandPose Settling::carried(const HandPose& hand, const SettledFrame& then) const {
-  return moved(hand, object_.placement().pose * then.object.pose.inverse());
+/// A hand of the last frame, carried along with the object since then.
+HandPose Settling::carried(const HandPose& hand) const {
+  return moved(hand, object_.placement().pose * memory_.last.object.pose.inverse());
 }
 
 /// How the tracked hand moves.
@@ -156,7 +159,7 @@ void Settling::find_motion() {
   const SettledFrame& last = memory_.last;
   if (!last.tracked) return;
   const HandPose& now = model_.tracked;
-  const HandPose along = carried(*last.tracked, last);
+  const HandPose along = carried(*last.tracked);
   motion_m_ = std::max(largest_motion(*last.tracked, now), largest_motion(along, now));
   const double follow = memory_.fresh ? 1.0 : 1.0 - std::exp(-seconds_ / kVelocityTime_s);
   follow_velocity(along, now, object_.placement().pose.rotation, seconds_, follow,
@@ -201,7 +204,7 @@ void Settling::start() {
     search_.velocity[i] = placement.pose.rotation * memory_.velocity[i];
   }
   if (fresh_) return;
-  search_.before = pose_flesh(carried(memory_.last.drawn, memory_.last), model_.scale);
+  search_.before = pose_flesh(carried(memory_.last.drawn), model_.scale);
   search_.braking_mpss = braking_at(motion_m_ / seconds_);
   coasted_ = coasted_joints(memory_.last, memory_.drift, tracked, placement, seconds_);
 }
@@ -220,7 +223,7 @@ Correction Settling::after(const HandFreedoms& step) const {
   return after_step(correction_, step, search_.frame, model_.ranges);
 }
 
-SettleProblem Settling::problem(const PosedHand& posed) const {
+SettleProblem Settling::problem_at(const PosedHand& posed) const {
   SettleProblem problem;
   problem.rows = memory_.rows;
 
@@ -366,9 +369,9 @@ void Settling::remember_surface_motion() {
 }
 
 void Settling::remember_frame(const HandPose& drawn) {
-  const SettledFrame now{model_.tracked, drawn, correction_, object_.placement(), seconds_};
+  const SettledFrame now{model_.tracked, drawn, correction_, object_.placement()};
   if (fresh_) memory_.drift.fill(Vec3::Zero());  // it did not come from anywhere
-  if (!fresh_) memory_.drift = drift_between(memory_.last, now);
+  if (!fresh_) memory_.drift = drift_between(memory_.last, now, seconds_);
   memory_.last = now;
   memory_.fresh = fresh_;
   memory_.surface = &object_.surface();

@@ -28,10 +28,11 @@ void follow_velocity(const HandPose& from, const HandPose& to, const Quat& frame
   }
 }
 
-JointVectors drift_between(const SettledFrame& before, const SettledFrame& now) noexcept {
+JointVectors drift_between(const SettledFrame& before, const SettledFrame& now,
+                           double seconds) noexcept {
   JointVectors drift;
   for (std::size_t i = 0; i < kJointCount; ++i) {
-    drift[i] = (offset_of(now, i) - offset_of(before, i)) / now.seconds;
+    drift[i] = (offset_of(now, i) - offset_of(before, i)) / seconds;
   }
   return drift;
 }

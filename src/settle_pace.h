@@ -17,8 +17,8 @@ void follow_velocity(const HandPose& from, const HandPose& to, const Quat& frame
                      double share, JointVectors& velocity) noexcept;
 
 /// How the drawn joints came away from the tracked ones in a frame, m/s; object frame.
-[[nodiscard]] JointVectors drift_between(const SettledFrame& before,
-                                         const SettledFrame& now) noexcept;
+[[nodiscard]] JointVectors drift_between(const SettledFrame& before, const SettledFrame& now,
+                                         double seconds) noexcept;
 
 /// Where the drawn joints are if each keeps its way from the tracked one, and what changed of that
 /// in the last frame goes on, a little slower. World frame.

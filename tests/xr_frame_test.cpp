@@ -78,7 +78,7 @@ class FrameTest : public RoomTest {
 };
 
 TEST_F(FrameTest, DoesNotAllocate) {
-  // Under sanitizers they are drawn, in a second or more each.
+  // Under sanitizers they are drawn, in software.
   const int frames = test::kSanitized ? 10 : 40;
   pass(frames);
   EXPECT_EQ(test::allocations_of([&] { pass(2 * frames); }), 0U);

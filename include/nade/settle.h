@@ -86,7 +86,6 @@ struct SettledFrame {
   HandPose drawn;
   Correction correction;
   Placement object;
-  double seconds = 0.0;  ///< since the one before it
 };
 
 /// One for each joint.
