@@ -391,8 +391,8 @@ TEST_F(ViewCommandTest, TakesAStrokeInAWindow) {
 
 TEST_F(ViewCommandTest, OldOpenGLIsNamed) {
   if (!has_virtual_display()) GTEST_SKIP() << kNoVirtualDisplay;
-  const test::Ran ran =
-      on_virtual_display("MESA_GL_VERSION_OVERRIDE=3.3 \"$NADE\" view --frames 2");
+  const test::Ran ran = on_virtual_display(
+      "__GLX_VENDOR_LIBRARY_NAME=mesa MESA_GL_VERSION_OVERRIDE=3.3 \"$NADE\" view --frames 2");
   expect_failure(ran, "OpenGL 4.5");
 }
 

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "nade/draw/text.h"
 
@@ -20,7 +21,7 @@ constexpr float kTipWidth = 300.0F;
 constexpr float kTextSize = 15.0F;
 constexpr float kSmallSize = 12.5F;
 constexpr float kLargeSize = 21.0F;
-constexpr const char* kFontFolder = "/usr/share/fonts/truetype/dejavu/";
+constexpr const char* kBoldFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf";
 
 ImVec4 grey(float value) { return {value, value, value * 1.04F, 1.0F}; }
 
@@ -59,16 +60,22 @@ void set_style() {
   colors[ImGuiCol_PlotHistogram] = kAccentBright;
 }
 
-/// A font of the system, or else the one that the library brings.
-ImFont* add_font(const char* file, float size) {
-  static constexpr std::array<ImWchar, 7> kRanges{0x20, 0x17f, 0x370, 0x3ff, 0x2010, 0x25ff, 0};
-  ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
-  const std::string path = std::string(kFontFolder) + file;
-  if (std::filesystem::exists(path)) {
-    ImFont* const font = fonts.AddFontFromFileTTF(path.c_str(), size, nullptr, kRanges.data());
-    if (font != nullptr) return font;
-  }
-  return fonts.AddFontDefault();
+constexpr std::array<ImWchar, 7> kLetters{0x20, 0x17f, 0x370, 0x3ff, 0x2010, 0x25ff, 0};
+
+ImFont* add_font(float size) {
+  const std::string_view bytes = draw::font_bytes();
+  ImFontConfig config;
+  config.FontDataOwnedByAtlas = false;
+  // Dear ImGui asks for bytes that it may write, and leaves those that it does not own alone.
+  return ImGui::GetIO().Fonts->AddFontFromMemoryTTF(const_cast<char*>(bytes.data()),
+                                                    static_cast<int>(bytes.size()), size, &config,
+                                                    kLetters.data());
+}
+
+/// The same in bold where the system has it.
+ImFont* add_bold_font(float size) {
+  if (!std::filesystem::exists(kBoldFont)) return add_font(size);
+  return ImGui::GetIO().Fonts->AddFontFromFileTTF(kBoldFont, size, nullptr, kLetters.data());
 }
 
 /// Adds Japanese letters to the font that was added last; false where the system has none.
@@ -92,10 +99,10 @@ Result<std::unique_ptr<UiKit>> UiKit::create(float scale, Letters letters) {
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;
   io.LogFilename = nullptr;
-  kit->normal_ = add_font("DejaVuSans.ttf", scale * kTextSize);
-  kit->small_ = add_font("DejaVuSans.ttf", scale * kSmallSize);
-  kit->bold_ = add_font("DejaVuSans-Bold.ttf", scale * kTextSize);
-  kit->large_ = add_font("DejaVuSans.ttf", scale * kLargeSize);
+  kit->normal_ = add_font(scale * kTextSize);
+  kit->small_ = add_font(scale * kSmallSize);
+  kit->bold_ = add_bold_font(scale * kTextSize);
+  kit->large_ = add_font(scale * kLargeSize);
   if (letters == Letters::japanese && !add_japanese(scale * kLargeSize)) {
     return Error{ErrorCode::not_found, std::string(draw::kNoJapaneseFont)};
   }

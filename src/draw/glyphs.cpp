@@ -35,7 +35,7 @@ struct Font {
 };
 
 const Font& main_font() {
-  static const Font kFont(embedded_file("DejaVuSans.ttf"));
+  static const Font kFont(font_bytes());
   NADE_ASSERT(kFont.read);
   return kFont;
 }
@@ -94,6 +94,8 @@ int next_character(std::string_view& text) {
 }
 
 }  // namespace
+
+std::string_view font_bytes() { return embedded_file("DejaVuSans.ttf"); }
 
 std::optional<std::string> japanese_font() {
   for (const char* file : {"/usr/share/fonts/opentype/ipafont-gothic/ipag.ttf",

@@ -12,6 +12,9 @@ namespace nade::draw {
 /// descenders).
 [[nodiscard]] float text_width(std::string_view utf8, float height_px);
 
+/// The font that the library brings and writes with, as a TrueType file's bytes; they last.
+[[nodiscard]] std::string_view font_bytes();
+
 /// The file of an installed font with Japanese letters, which the embedded one lacks; none where
 /// the system has none of those we know.
 [[nodiscard]] std::optional<std::string> japanese_font();
