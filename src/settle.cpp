@@ -12,16 +12,14 @@
 namespace nade {
 namespace {
 
-// What the tracked pose is worth. A shift of 17 mm costs as much as bending a knuckle by a radian.
-constexpr double kShiftStiffness = 1.0 / (0.017 * 0.017);
-/// Along the surface, where the person's own hand says how far.
-constexpr double kSlideStiffness = 2.4 * kShiftStiffness;
-constexpr double kTurnStiffness = 10.0;
+// What the tracked pose is worth. A shift of 19 mm costs as much as bending a knuckle by a radian.
+constexpr double kShiftStiffness = 1.0 / (0.019 * 0.019);
+constexpr double kTurnStiffness = 9.4;
 /// About the surface's normal: the heading is the person's own.
 constexpr double kSpinStiffness = 32.0;
 /// Base abduction, base, middle and last flexion. A finger pushed from below gives way at its
 /// knuckle and keeps its curl; a thumb gives way as a whole.
-const DigitFreedoms kFingerStiffness{4.0, 1.0, 8.0, 12.0};
+const DigitFreedoms kFingerStiffness{9.0, 1.1, 8.0, 10.0};
 const DigitFreedoms kThumbStiffness{1.0, 1.0, 2.0, 2.0};
 
 /// Skin farther than this from its plane, and than this share of what the hand has moved, does not
@@ -32,29 +30,32 @@ constexpr double kRowReachOfMotion = 0.4;
 // How fast a correction may change where nothing pushes: so many times the tracked hand's own
 // motion, and a little more, so that a hand at rest is released as well.
 constexpr double kShiftRate = 1.5;
-constexpr double kTurnRate = 1.35;
-constexpr double kBendRate = 0.45;
+constexpr double kTurnRate = 1.1;
+constexpr double kBendRate = 0.55;
 constexpr double kFreeRate_mps = 0.003;
 constexpr double kWallStiffness = 1e5;
 /// A joint's mass: a spring of this over the square of the frame's seconds keeps it going. Less in
 /// the air, where the hand comes back to the tracked one.
-constexpr double kInertia = 0.96;
-constexpr double kInertiaInAir = 0.48;
+constexpr double kInertia = 1.25;
+constexpr double kInertiaInAir = 0.5;
 /// Turns and bends follow with this time constant.
-constexpr double kViscosity_s = 0.055;
-/// And shifts along the surface with this.
-constexpr double kSlideTime_s = 0.2;
+constexpr double kViscosity_s = 0.054;
+/// And shifts along the surface with this: there the hand moves as the person's does.
+constexpr double kSlideTime_s = 30.0;
+/// A hand that friction holds back or lets slip takes about this time for it.
+constexpr double kLagTime_s = 0.2;
 /// In the air, all of a correction goes with this.
-constexpr double kReleaseTime_s = 0.085;
+constexpr double kReleaseTime_s = 0.093;
 /// No joint goes farther in a frame than so many times the tracked hand's fastest, and a little
 /// more, unless the object pushes harder than this holds it back.
-constexpr double kFastest = 1.8;
+constexpr double kFastest = 1.1;
 /// What the tracked joints do against the object is smoothed over this time.
 constexpr double kVelocityTime_s = 0.014;
 /// The direction of the object's push is smoothed over this time.
 constexpr double kPushTime_s = 0.1;
-/// The drawn hand strays along the surface by no more than this share of the depth.
-constexpr double kCarriedCone = 0.6;
+/// Cosines between that and a face's normal: from another face, and surely from the same.
+constexpr double kOtherFace = 0.05;
+constexpr double kSameFace = 0.3;
 
 /// A hand that moves farther from one frame to the next was lost and found.
 constexpr double kTeleport_m = 0.15;
@@ -65,6 +66,10 @@ constexpr int kRounds = 3;
 constexpr int kFirstRounds = 40;
 /// A round that moves no skin farther than this is the last.
 constexpr double kSettled_m = 0.0004;
+/// A hand that is found anew rests for long where it is put: each round's steps are shorter by this
+/// factor, and the last is a small one.
+constexpr double kShorterSteps = 0.85;
+constexpr double kFirstSettled_m = 1e-6;
 /// In the air, a correction smaller than this is over.
 constexpr double kReleased_m = 0.00002;
 /// A hand that is found anew is got out of the object if it lies no deeper than this.
@@ -98,19 +103,19 @@ class Settling {
     for (int round = 0; round < rounds; ++round) {
       patches_ = find_touches(search_, posed, memory_);
       if (memory_.rows.empty() && is_none(correction_)) break;
-      SettleProblem problem = problem_at(posed);
-      HandFreedoms step = least_cost_step(problem);
+      SettleProblem problem = problem_at(posed, round);
+      HandFreedoms step = least_cost_step(problem, HandFreedoms::Zero());
       PosedHand next = pose_hand(model_, after(step));
       if (!fresh_ && hold_back(memory_.last.drawn, next.hand, most_m, posed, step, search_.frame,
                                memory_.rows)) {
         problem.rows = memory_.rows;
-        step = least_cost_step(problem);
+        step = least_cost_step(problem, step);
         next = pose_hand(model_, after(step));
       }
       correction_ = after(step);
       find_forces(posed, step);
       posed = next;
-      if (reach_of(step) < kSettled_m) break;
+      if (reach_of(step) < (fresh_ ? kFirstSettled_m : kSettled_m)) break;
     }
     return finish(posed.hand);
   }
@@ -120,8 +125,9 @@ class Settling {
   [[nodiscard]] HandPose carried(const HandPose& hand) const;
   void find_motion();
   void start_outside();
+  [[nodiscard]] Vec3 find_normal() const;
   [[nodiscard]] Correction after(const HandFreedoms& step) const;
-  [[nodiscard]] SettleProblem problem_at(const PosedHand& posed) const;
+  [[nodiscard]] SettleProblem problem_at(const PosedHand& posed, int round) const;
   void find_forces(const PosedHand& posed, const HandFreedoms& step);
   [[nodiscard]] bool is_pressed() const;
   void find_push(const Vec3& force);
@@ -145,6 +151,7 @@ class Settling {
   Correction last_;
   Correction correction_;
   Vec3 push_ = Vec3::Zero();
+  Vec3 normal_ = Vec3::Zero();  ///< of the surface at the tracked palm; zero in the air
   PatchTouches patches_{};
   bool touches_ = false;
 };
@@ -181,7 +188,9 @@ void Settling::start() {
   fresh_ = !memory_.last.tracked || !same_surface || motion_m_ > kTeleport_m;
   if (fresh_) {
     memory_.last = {};
-    memory_.push = memory_.carried = memory_.lag = Vec3::Zero();
+    memory_.push = memory_.normal = Vec3::Zero();
+    memory_.carried = Vec3::Zero();
+    memory_.lag = memory_.drawn_lag = memory_.lag_change = Vec3::Zero();
     memory_.geometric.setZero();
     memory_.velocity.fill(Vec3::Zero());
     memory_.pulls.fill(1.0);  // no pull has to come first
@@ -197,9 +206,11 @@ void Settling::start() {
   search_.row_reach_m = fresh_ ? kDeepest_m : kRowReach_m + kRowReachOfMotion * motion_m_;
   if (fresh_) start_outside();
   search_.push = push_;
-  search_.frame = surface_frame(push_, tracked[Joint::palm].rotation);
+  normal_ = find_normal();
+  search_.frame = surface_frame(normal_, tracked[Joint::palm].rotation);
   correction_ = after(HandFreedoms::Zero());  // into the range of this frame's pose
   last_ = correction_;
+  last_.palm.shift += memory_.lag_change;
   for (std::size_t i = 0; i < kJointCount; ++i) {
     search_.velocity[i] = placement.pose.rotation * memory_.velocity[i];
   }
@@ -219,23 +230,33 @@ void Settling::start_outside() {
   correction_.palm.shift = nearest->point - palm + model_.scale * kPalmThickness_m * push_;
 }
 
+/// Where the object pushes from another face than the one nearest to the palm, that way counts.
+Vec3 Settling::find_normal() const {
+  if (push_.isZero()) return push_;
+  const std::optional<SurfacePoint> nearest =
+      object_.closest_point(model_.tracked[Joint::palm].position, kDeepest_m, memory_.under_palm);
+  if (!nearest) return push_;
+  const double share = smoothstep(kOtherFace, kSameFace, nearest->normal.dot(push_));
+  return (push_ + share * (nearest->normal - push_)).normalized();
+}
+
 Correction Settling::after(const HandFreedoms& step) const {
   return after_step(correction_, step, search_.frame, model_.ranges);
 }
 
-SettleProblem Settling::problem_at(const PosedHand& posed) const {
+SettleProblem Settling::problem_at(const PosedHand& posed, int round) const {
   SettleProblem problem;
   problem.rows = memory_.rows;
 
   HandFreedoms back;
-  back.head<3>() << kSlideStiffness, kSlideStiffness, kShiftStiffness;
+  back.head<3>().setConstant(kShiftStiffness);
   back.segment<3>(3) << kTurnStiffness, kTurnStiffness, kSpinStiffness;
   for (std::size_t d = 0; d < kDigitCount; ++d) {
     back.segment<4>(first_freedom(d)) =
         digit_at(d) == Digit::thumb ? kThumbStiffness : kFingerStiffness;
   }
   HandFreedoms away = step_between({}, correction_, search_.frame);
-  away.head<3>() -= search_.frame.transpose() * (memory_.carried + memory_.lag);
+  away.head<3>() -= search_.frame.transpose() * (memory_.carried + memory_.drawn_lag);
   problem.springs.add(back, -away);
   // The forces on a hand found anew are not yet those that it will rest with.
   if (!fresh_) problem.springs.add(memory_.geometric, HandFreedoms::Zero());
@@ -263,8 +284,9 @@ SettleProblem Settling::problem_at(const PosedHand& posed) const {
   }
 
   if (fresh_) {  // in steps that the planes are good for
-    problem.rate.high.setConstant(kLongestTurn_rad);
-    problem.rate.high.head<3>().setConstant(kDeepest_m);
+    const double share = std::pow(kShorterSteps, round);
+    problem.rate.high.setConstant(share * kLongestTurn_rad);
+    problem.rate.high.head<3>().setConstant(share * kDeepest_m);
     problem.rate.low = -problem.rate.high;
     return problem;
   }
@@ -337,35 +359,40 @@ void Settling::rub(const Vec3& stroked) {
       std::min(friction.coefficient * std::max(memory_.height_m, 0.0), friction.longest_lag_m);
   const double slide_m = friction.kinetic * stick_m;
   const double before_m = memory_.lag.norm();
-  Vec3 lag = along_surface(memory_.lag, push_) - stroked;
+  Vec3 lag = along_surface(memory_.lag, normal_) - stroked;
   if (lag.norm() > stick_m) memory_.slips = true;
   if (memory_.slips) {
     lag = shortened(lag, std::max(slide_m, before_m - stroked.norm()));
     if (lag.norm() <= slide_m) memory_.slips = false;
   }
   memory_.lag = shortened(lag, stick_m);
+  const double share = 1.0 - std::exp(-seconds_ / kLagTime_s);
+  memory_.lag_change = share * (memory_.lag - memory_.drawn_lag);
+  memory_.drawn_lag += memory_.lag_change;
 }
 
 /// What lies between drawn and tracked hand along the surface. On a curved surface the drawn hand
-/// goes on as far as the tracked one went, not as far as the nearest point would.
+/// goes on as far as the tracked one went, not as far as the nearest point would, and strays by no
+/// more than the depth.
 void Settling::remember_surface_motion() {
-  if (push_.isZero() || memory_.push.isZero()) {
-    memory_.carried.setZero();
-    memory_.lag.setZero();
+  memory_.lag_change.setZero();
+  if (push_.isZero() || memory_.normal.isZero()) {
+    memory_.carried = memory_.lag = memory_.drawn_lag = Vec3::Zero();
     memory_.slips = false;
   } else {
-    const Vec3 offset = memory_.carried + memory_.push.dot(correction_.palm.shift) * memory_.push;
-    const double most = kCarriedCone * std::max(0.0, push_.dot(correction_.palm.shift));
-    memory_.carried = shortened(along_surface(offset, push_), most);
+    const Vec3& shift = correction_.palm.shift;
+    const Vec3 offset = memory_.carried + memory_.normal.dot(shift) * memory_.normal;
+    memory_.carried = shortened(along_surface(offset, normal_), std::max(0.0, normal_.dot(shift)));
     if (options_.friction.coefficient > 0.0) {
       const Vec3& palm = model_.tracked[Joint::palm].position;
       const Vec3 before = object_.placement().to_world(
           memory_.last.object.to_local((*memory_.last.tracked)[Joint::palm].position));
-      rub(along_surface(palm - before, push_));
+      rub(along_surface(palm - before, normal_));
     }
   }
   memory_.height_m = std::max(0.0, push_.dot(correction_.palm.shift));
   memory_.push = push_;
+  memory_.normal = push_.isZero() ? push_ : normal_;
 }
 
 void Settling::remember_frame(const HandPose& drawn) {

@@ -52,9 +52,9 @@ HandFreedoms beyond(const Walls& walls, const HandFreedoms& step) {
 /// The problem at a step, and its rows' gaps there and along a direction.
 class Descent {
  public:
-  explicit Descent(const SettleProblem& problem)
-      : problem_(problem), count_(std::min(problem.rows.size(), gaps_.size())) {
-    for (std::size_t i = 0; i < count_; ++i) gaps_[i] = problem.rows[i].gap_m;
+  Descent(const SettleProblem& problem, const HandFreedoms& from)
+      : problem_(problem), count_(std::min(problem.rows.size(), gaps_.size())), step_(from) {
+    for (std::size_t i = 0; i < count_; ++i) gaps_[i] = gap_after(problem.rows[i], from);
   }
 
   /// Toward the least cost of the quadratic that holds here.
@@ -147,7 +147,7 @@ class Descent {
   std::array<double, kMostContactRows> gaps_;
   std::array<double, kMostContactRows> changes_;
   std::size_t count_;
-  HandFreedoms step_ = HandFreedoms::Zero();
+  HandFreedoms step_;
 };
 
 }  // namespace
@@ -170,8 +170,8 @@ double force_at(const ContactRow& row, double gap_m) noexcept {
          row.stiffness * std::min(gap_m - row.brake_m, 0.0);
 }
 
-HandFreedoms least_cost_step(const SettleProblem& problem) noexcept {
-  Descent descent(problem);
+HandFreedoms least_cost_step(const SettleProblem& problem, const HandFreedoms& from) noexcept {
+  Descent descent(problem, from);
   for (int i = 0; i < kMostSteps; ++i) {
     const HandFreedoms direction = descent.newton_direction();
     if (direction.cwiseAbs().maxCoeff() < kSmallestChange) break;

@@ -39,7 +39,8 @@ inline constexpr double kSurfaceStiffness = 4e6;
 
 /// The step of least cost: a convex problem, so there is one. Newton's method on a piecewise
 /// quadratic, a fixed number of steps at the most.
-[[nodiscard]] HandFreedoms least_cost_step(const SettleProblem& problem) noexcept;
+[[nodiscard]] HandFreedoms least_cost_step(const SettleProblem& problem,
+                                           const HandFreedoms& from) noexcept;
 
 /// The gap of a row after a step.
 [[nodiscard]] double gap_after(const ContactRow& row, const HandFreedoms& step) noexcept;

@@ -13,21 +13,21 @@ constexpr double kMargin_m = 0.0002;
 // What the person pressed in is drawn to the surface until it is this near, from as far as
 // `kPullReach_m`, with a pull that grows to its full strength with the tracked skin's depth, and
 // with time.
-constexpr double kPullRest_m = 0.00055;
-constexpr double kPullFade_m = 0.015;
-constexpr double kPullStart_m = -0.005;
+constexpr double kPullRest_m = 0.00028;
+constexpr double kPullFade_m = 0.012;
+constexpr double kPullStart_m = -0.0053;
 constexpr double kPullFull_m = 0.016;
 constexpr double kPullTime_s = 0.072;
-constexpr double kPullStiffness = 6e4;
+constexpr double kPullStiffness = 8e4;
 
 // Skin lands on a cushion and leaves it by the same way: at rest so thick, and thicker by the way
 // that it goes in so long. It never goes quite flat.
-constexpr double kThinnest_m = 0.0005;
-constexpr double kThickest_m = 0.014;
-constexpr double kLandingTime_s = 0.076;
+constexpr double kThinnest_m = 0.0004;
+constexpr double kThickest_m = 0.015;
+constexpr double kLandingTime_s = 0.074;
 constexpr double kFlat_m = 0.0002;
 /// Drawn skin that comes down by itself brakes no less than this, as stiff as a damper.
-constexpr double kBraking_mpss = 3.3;
+constexpr double kBraking_mpss = 1.2;
 constexpr double kBrakeDamping = 490.0;
 
 /// A pad's plane serves for as long as the pad stays within this, or within this share of how far

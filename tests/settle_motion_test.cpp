@@ -143,6 +143,36 @@ TEST(SettleMotion, AStrokeRunsAsCalmlyAsThePersonsOwn) {
   }
 }
 
+/// While it strokes and is drawn 20 mm higher: its palm against the person's, along the ball.
+TEST(SettleMotion, ThePalmGoesAlongTheBallAsThePersonsDoes) {
+  HandCorrector corrector(settling());
+  Vec3 tracked_before = Vec3::Zero();
+  Vec3 drawn_before = Vec3::Zero();
+  SurfaceHint hint;
+  double gone_m = 0.0;
+  double strayed_m = 0.0;
+  for (int i = 0; i < 260; ++i) {
+    const double time_s = i / 90.0;
+    const double depth_m = std::min(0.02, -0.05 + 0.15 * time_s);
+    const double along_m = 0.05 * std::sin(3.0 * std::max(0.0, time_s - 1.0));
+    const HandPose hand = pressed_hand(depth_m, 0.0, {0.0, 0.0, -along_m});
+    const HandPose& pose = corrector.update(hand, ball(), i * kFrame_ns).pose;
+    const Vec3 tracked = hand[Joint::palm].position;
+    const Vec3 drawn = pose[Joint::palm].position;
+    if (time_s > 1.0) {
+      const Vec3 normal = ball().closest_point(tracked, 1.0, hint)->normal;
+      const auto along = [&normal](const Vec3& way) -> Vec3 {
+        return way - normal.dot(way) * normal;
+      };
+      gone_m += along(tracked - tracked_before).norm();
+      strayed_m += along(drawn - drawn_before - (tracked - tracked_before)).norm();
+    }
+    tracked_before = tracked;
+    drawn_before = drawn;
+  }
+  EXPECT_LT(strayed_m, 0.01 * gone_m);
+}
+
 /// At 500 frames a second the brake once undid what drew the fingers down: the thumb hovered 5 mm
 /// above the table.
 TEST(SettleMotion, AHandRestsAlikeAtAnyFrameRate) {

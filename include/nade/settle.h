@@ -99,8 +99,12 @@ struct SettleMemory {
   std::uint64_t shape = 0;           ///< the surface's, in the last frame
   Vec3 push = Vec3::Zero();          ///< unit, the way the object pushes; zero in the air
   double height_m = 0.0;             ///< of the drawn hand over the tracked one along `push`
+  Vec3 normal = Vec3::Zero();        ///< of the surface at the tracked palm; zero in the air
+  SurfaceHint under_palm;            ///< where that was found
   Vec3 carried = Vec3::Zero();       ///< along the surface, from what was stroked so far
   Vec3 lag = Vec3::Zero();           ///< along the surface, by friction
+  Vec3 drawn_lag = Vec3::Zero();     ///< the same, smoothed
+  Vec3 lag_change = Vec3::Zero();    ///< of `drawn_lag`, by which the hand is yet to move
   bool slips = false;
   HandFreedoms geometric = HandFreedoms::Zero();  ///< stiffness, of the last round's contacts
   std::array<double, kPulls> pulls{};             ///< shares of the full pull, in the last frame
