@@ -27,7 +27,7 @@ constexpr double kThickest_m = 0.015;
 constexpr double kLandingTime_s = 0.074;
 constexpr double kFlat_m = 0.0002;
 /// Drawn skin that comes down by itself brakes no less than this, as stiff as a damper.
-constexpr double kBraking_mpss = 1.2;
+constexpr double kBraking_mpss = 3.3;
 constexpr double kBrakeDamping = 490.0;
 
 /// A pad's plane serves for as long as the pad stays within this, or within this share of how far
