@@ -5,6 +5,7 @@
 
 #include "posed_hand.h"
 #include "settle_pace.h"
+#include "settle_slide.h"
 #include "settle_solver.h"
 #include "settle_step.h"
 #include "touch_finder.h"
@@ -42,8 +43,6 @@ constexpr double kInertiaInAir = 0.5;
 constexpr double kViscosity_s = 0.054;
 /// And shifts along the surface with this: there the hand moves as the person's does.
 constexpr double kSlideTime_s = 30.0;
-/// A hand that friction holds back or lets slip takes about this time for it.
-constexpr double kLagTime_s = 0.2;
 /// In the air, all of a correction goes with this.
 constexpr double kReleaseTime_s = 0.093;
 /// No joint goes farther in a frame than so many times the tracked hand's fastest, and a little
@@ -76,11 +75,6 @@ constexpr double kReleased_m = 0.00002;
 constexpr double kDeepest_m = 0.3;
 constexpr double kLongestTurn_rad = 0.3;
 constexpr double kPalmThickness_m = 0.02;
-
-Vec3 shortened(const Vec3& vector, double most) {
-  const double length = vector.norm();
-  return length > most ? Vec3(most / length * vector) : vector;
-}
 
 /// One frame's work.
 class Settling {
@@ -131,8 +125,7 @@ class Settling {
   void find_forces(const PosedHand& posed, const HandFreedoms& step);
   [[nodiscard]] bool is_pressed() const;
   void find_push(const Vec3& force);
-  void remember_surface_motion();
-  void rub(const Vec3& stroked);
+  void remember_contact();
   void remember_frame(const HandPose& drawn);
   SettledHand finish(const HandPose& posed);
 
@@ -189,13 +182,11 @@ void Settling::start() {
   if (fresh_) {
     memory_.last = {};
     memory_.push = memory_.normal = Vec3::Zero();
-    memory_.carried = Vec3::Zero();
-    memory_.lag = memory_.drawn_lag = memory_.lag_change = Vec3::Zero();
+    forget_slide(memory_);
     memory_.geometric.setZero();
     memory_.velocity.fill(Vec3::Zero());
     memory_.pulls.fill(1.0);  // no pull has to come first
     memory_.height_m = 0.0;
-    memory_.slips = false;
   }
   search_.seconds = seconds_;
   search_.pulls_before = memory_.pulls;
@@ -210,7 +201,7 @@ void Settling::start() {
   search_.frame = surface_frame(normal_, tracked[Joint::palm].rotation);
   correction_ = after(HandFreedoms::Zero());  // into the range of this frame's pose
   last_ = correction_;
-  last_.palm.shift += memory_.lag_change;
+  last_.palm.shift += follow_lag(seconds_, memory_);
   for (std::size_t i = 0; i < kJointCount; ++i) {
     search_.velocity[i] = placement.pose.rotation * memory_.velocity[i];
   }
@@ -351,44 +342,15 @@ void Settling::find_push(const Vec3& force) {
   push_ = (memory_.push + share * (push_ - memory_.push)).normalized();
 }
 
-/// Friction: what was stroked along the surface stays behind, up to a bound; then it slips, and
-/// catches up no faster than the hand strokes.
-void Settling::rub(const Vec3& stroked) {
-  const VisibleFriction& friction = options_.friction;
-  const double stick_m =
-      std::min(friction.coefficient * std::max(memory_.height_m, 0.0), friction.longest_lag_m);
-  const double slide_m = friction.kinetic * stick_m;
-  const double before_m = memory_.lag.norm();
-  Vec3 lag = along_surface(memory_.lag, normal_) - stroked;
-  if (lag.norm() > stick_m) memory_.slips = true;
-  if (memory_.slips) {
-    lag = shortened(lag, std::max(slide_m, before_m - stroked.norm()));
-    if (lag.norm() <= slide_m) memory_.slips = false;
-  }
-  memory_.lag = shortened(lag, stick_m);
-  const double share = 1.0 - std::exp(-seconds_ / kLagTime_s);
-  memory_.lag_change = share * (memory_.lag - memory_.drawn_lag);
-  memory_.drawn_lag += memory_.lag_change;
-}
-
-/// What lies between drawn and tracked hand along the surface. On a curved surface the drawn hand
-/// goes on as far as the tracked one went, not as far as the nearest point would, and strays by no
-/// more than the depth.
-void Settling::remember_surface_motion() {
-  memory_.lag_change.setZero();
+void Settling::remember_contact() {
   if (push_.isZero() || memory_.normal.isZero()) {
-    memory_.carried = memory_.lag = memory_.drawn_lag = Vec3::Zero();
-    memory_.slips = false;
+    forget_slide(memory_);
   } else {
-    const Vec3& shift = correction_.palm.shift;
-    const Vec3 offset = memory_.carried + memory_.normal.dot(shift) * memory_.normal;
-    memory_.carried = shortened(along_surface(offset, normal_), std::max(0.0, normal_.dot(shift)));
-    if (options_.friction.coefficient > 0.0) {
-      const Vec3& palm = model_.tracked[Joint::palm].position;
-      const Vec3 before = object_.placement().to_world(
-          memory_.last.object.to_local((*memory_.last.tracked)[Joint::palm].position));
-      rub(along_surface(palm - before, normal_));
-    }
+    const Vec3& palm = model_.tracked[Joint::palm].position;
+    const Vec3 before = object_.placement().to_world(
+        memory_.last.object.to_local((*memory_.last.tracked)[Joint::palm].position));
+    remember_slide(correction_.palm.shift, along_surface(palm - before, normal_), normal_,
+                   options_.friction, memory_);
   }
   memory_.height_m = std::max(0.0, push_.dot(correction_.palm.shift));
   memory_.push = push_;
@@ -411,7 +373,7 @@ SettledHand Settling::finish(const HandPose& posed) {
   SettledHand settled;
   settled.correction = correction_;
   settled.hand = is_none(correction_) ? model_.tracked : posed;
-  remember_surface_motion();
+  remember_contact();
   remember_frame(settled.hand);
   settled.touches = touches_;
   settled.corrected = !is_none(correction_);

@@ -38,7 +38,7 @@ struct SettleProblem {
 inline constexpr double kSurfaceStiffness = 4e6;
 
 /// The step of least cost: a convex problem, so there is one. Newton's method on a piecewise
-/// quadratic, a fixed number of steps at the most.
+/// quadratic, a fixed number of steps at the most; the nearer `from` is, the fewer.
 [[nodiscard]] HandFreedoms least_cost_step(const SettleProblem& problem,
                                            const HandFreedoms& from) noexcept;
 

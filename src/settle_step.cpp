@@ -22,10 +22,6 @@ Quat turn_about(const Vec3& rotation_vector) {
 
 }  // namespace
 
-Vec3 along_surface(const Vec3& vector, const Vec3& normal) noexcept {
-  return vector - normal.dot(vector) * normal;
-}
-
 Eigen::Matrix3d surface_frame(const Vec3& normal, const Quat& palm) noexcept {
   const Vec3 ahead = palm * -Vec3::UnitZ();
   const Vec3 along = along_surface(ahead, normal);

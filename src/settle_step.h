@@ -10,9 +10,6 @@ namespace nade {
 // A correction's changes as steps of the hand's freedoms. `frame` is the one that the wrist's
 // shift and turn are counted in.
 
-/// The part of a vector that lies along a surface with this unit normal.
-[[nodiscard]] Vec3 along_surface(const Vec3& vector, const Vec3& normal) noexcept;
-
 /// Z along `normal`, X as near as can be to where the hand points; the hand's own axes where there
 /// is no normal.
 [[nodiscard]] Eigen::Matrix3d surface_frame(const Vec3& normal, const Quat& palm) noexcept;

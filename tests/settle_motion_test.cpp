@@ -161,11 +161,9 @@ TEST(SettleMotion, ThePalmGoesAlongTheBallAsThePersonsDoes) {
     const Vec3 drawn = pose[Joint::palm].position;
     if (time_s > 1.0) {
       const Vec3 normal = ball().closest_point(tracked, 1.0, hint)->normal;
-      const auto along = [&normal](const Vec3& way) -> Vec3 {
-        return way - normal.dot(way) * normal;
-      };
-      gone_m += along(tracked - tracked_before).norm();
-      strayed_m += along(drawn - drawn_before - (tracked - tracked_before)).norm();
+      const Vec3 way = tracked - tracked_before;
+      gone_m += along_surface(way, normal).norm();
+      strayed_m += along_surface(drawn - drawn_before - way, normal).norm();
     }
     tracked_before = tracked;
     drawn_before = drawn;

@@ -31,10 +31,6 @@ double share_of(double step_s, double time_constant_s) {
 
 double time_constant(double cutoff_hz) { return 1.0 / (2.0 * std::numbers::pi * cutoff_hz); }
 
-Vec3 tangent_part(const Vec3& vector, const Vec3& normal) {
-  return vector - normal.dot(vector) * normal;
-}
-
 void approach(double& value, double goal, double share) { value += share * (goal - value); }
 
 }  // namespace
@@ -50,7 +46,7 @@ void MouseHand::place(const Object& object, const Pose& place) {
   off_m_ = 0.0;
   normal_ = broad_normal(object, place.position, place.rotation * Vec3::UnitY());
   surface_point_ = place.position;
-  ahead_ = tangent_part(place.rotation * -Vec3::UnitZ(), normal_).normalized();
+  ahead_ = along_surface(place.rotation * -Vec3::UnitZ(), normal_).normalized();
   held_ = settings_;
   settled_ = false;
 }
@@ -118,15 +114,15 @@ void MouseHand::take_heading(const Aim& aim, double step_s) {
   const Vec3 wish = by_motion ? velocity_ : Vec3(aim.viewer_ahead + aim.viewer_up);
   const double inward_rad = settings_.side == Handedness::right ? kInward_rad : -kInward_rad;
   const Vec3 goal =
-      Quat(Eigen::AngleAxisd(by_motion ? 0.0 : inward_rad, normal_)) * tangent_part(wish, normal_);
-  const Vec3 kept = tangent_part(ahead_, normal_);
+      Quat(Eigen::AngleAxisd(by_motion ? 0.0 : inward_rad, normal_)) * along_surface(wish, normal_);
+  const Vec3 kept = along_surface(ahead_, normal_);
   ahead_ = kept.norm() > 1e-3 ? Vec3(kept.normalized()) : Vec3(normal_.unitOrthogonal());
   if (goal.norm() < (by_motion ? kMovingSpeed : 0.1)) return;
   const double away = std::atan2(ahead_.cross(goal).dot(normal_), ahead_.dot(goal));
   const double share = settled_ ? share_of(step_s, by_motion ? kMotionHeading_s : kHeading_s) : 1.0;
   settled_ = true;
   ahead_ = Quat(Eigen::AngleAxisd(share * away, normal_)) * ahead_;
-  ahead_ = tangent_part(ahead_, normal_).normalized();
+  ahead_ = along_surface(ahead_, normal_).normalized();
 }
 
 void MouseHand::hold(double step_s) {

@@ -12,6 +12,11 @@ using Vec3 = Eigen::Vector3d;
 /// instruction set a program is compiled for.
 using Quat = Eigen::Quaternion<double, Eigen::DontAlign>;
 
+/// The part of a vector that lies along a surface with this unit normal.
+[[nodiscard]] inline Vec3 along_surface(const Vec3& vector, const Vec3& normal) {
+  return vector - normal.dot(vector) * normal;
+}
+
 /// A rigid motion: `position` and `rotation` take local coordinates to the parent's.
 struct Pose {
   Vec3 position = Vec3::Zero();

@@ -104,7 +104,6 @@ struct SettleMemory {
   Vec3 carried = Vec3::Zero();       ///< along the surface, from what was stroked so far
   Vec3 lag = Vec3::Zero();           ///< along the surface, by friction
   Vec3 drawn_lag = Vec3::Zero();     ///< the same, smoothed
-  Vec3 lag_change = Vec3::Zero();    ///< of `drawn_lag`, by which the hand is yet to move
   bool slips = false;
   HandFreedoms geometric = HandFreedoms::Zero();  ///< stiffness, of the last round's contacts
   std::array<double, kPulls> pulls{};             ///< shares of the full pull, in the last frame

@@ -25,10 +25,6 @@ struct PastFrame {
   bool palm_pressed = false;
 };
 
-Vec3 in_plane(const Vec3& vector, const Vec3& normal) {
-  return vector - normal.dot(vector) * normal;
-}
-
 bool is_pressed(const SkinReading& tracked, Part part) {
   return tracked.patch_lowest[index_of(part)] < -kPressing_m;
 }
@@ -94,8 +90,8 @@ void MetricsMeter::Impl::take_linkage(const PastFrame& now, const Object& object
   }
   PalmStep step;
   step.seconds = 1e-9 * static_cast<double>(now.time_ns - past->time_ns);
-  step.tracked_m = in_plane(now.palm_tracked - past->palm_tracked, surface->normal);
-  step.corrected_m = in_plane(now.palm_corrected - past->palm_corrected, surface->normal);
+  step.tracked_m = along_surface(now.palm_tracked - past->palm_tracked, surface->normal);
+  step.corrected_m = along_surface(now.palm_corrected - past->palm_corrected, surface->normal);
   linkage.add(step);
 }
 
