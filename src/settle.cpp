@@ -7,21 +7,12 @@
 #include "settle_pace.h"
 #include "settle_slide.h"
 #include "settle_solver.h"
+#include "settle_springs.h"
 #include "settle_step.h"
 #include "touch_finder.h"
 
 namespace nade {
 namespace {
-
-// What the tracked pose is worth. A shift of 19 mm costs as much as bending a knuckle by a radian.
-constexpr double kShiftStiffness = 1.0 / (0.019 * 0.019);
-constexpr double kTurnStiffness = 9.4;
-/// About the surface's normal: the heading is the person's own.
-constexpr double kSpinStiffness = 32.0;
-/// Base abduction, base, middle and last flexion. A finger pushed from below gives way at its
-/// knuckle and keeps its curl; a thumb gives way as a whole.
-const DigitFreedoms kFingerStiffness{9.0, 1.1, 8.0, 10.0};
-const DigitFreedoms kThumbStiffness{1.0, 1.0, 2.0, 2.0};
 
 /// Skin farther than this from its plane, and than this share of what the hand has moved, does not
 /// come to touch it in the frame.
@@ -30,28 +21,32 @@ constexpr double kRowReachOfMotion = 0.4;
 
 // How fast a correction may change where nothing pushes: so many times the tracked hand's own
 // motion, and a little more, so that a hand at rest is released as well.
-constexpr double kShiftRate = 1.5;
-constexpr double kTurnRate = 1.1;
-constexpr double kBendRate = 0.55;
+constexpr double kShiftRate = 2.0;
+constexpr double kTurnRate = 1.13;
+constexpr double kBendRate = 0.47;
 constexpr double kFreeRate_mps = 0.003;
 constexpr double kWallStiffness = 1e5;
 /// A joint's mass: a spring of this over the square of the frame's seconds keeps it going. Less in
 /// the air, where the hand comes back to the tracked one.
-constexpr double kInertia = 1.25;
-constexpr double kInertiaInAir = 0.5;
+constexpr double kInertia = 1.54;
+constexpr double kInertiaInAir = 0.65;
 /// Turns and bends follow with this time constant.
-constexpr double kViscosity_s = 0.054;
+constexpr double kViscosity_s = 0.061;
 /// And shifts along the surface with this: there the hand moves as the person's does.
 constexpr double kSlideTime_s = 30.0;
+/// Over an edge what was depth on one face is astray on the other: there it goes with this, for as
+/// long as an edge is remembered.
+constexpr double kEdgeSlideTime_s = 0.4;
+constexpr double kEdgeTime_s = 0.29;
 /// In the air, all of a correction goes with this.
 constexpr double kReleaseTime_s = 0.093;
 /// No joint goes farther in a frame than so many times the tracked hand's fastest, and a little
 /// more, unless the object pushes harder than this holds it back.
-constexpr double kFastest = 1.1;
+constexpr double kFastest = 1.04;
 /// What the tracked joints do against the object is smoothed over this time.
-constexpr double kVelocityTime_s = 0.014;
+constexpr double kVelocityTime_s = 0.016;
 /// The direction of the object's push is smoothed over this time.
-constexpr double kPushTime_s = 0.1;
+constexpr double kPushTime_s = 0.2;
 /// Cosines between that and a face's normal: from another face, and surely from the same.
 constexpr double kOtherFace = 0.05;
 constexpr double kSameFace = 0.3;
@@ -70,7 +65,7 @@ constexpr double kSettled_m = 0.0004;
 constexpr double kShorterSteps = 0.85;
 constexpr double kFirstSettled_m = 1e-6;
 /// In the air, a correction smaller than this is over.
-constexpr double kReleased_m = 0.00002;
+constexpr double kReleased_m = 0.0001;
 /// A hand that is found anew is got out of the object if it lies no deeper than this.
 constexpr double kDeepest_m = 0.3;
 constexpr double kLongestTurn_rad = 0.3;
@@ -119,7 +114,7 @@ class Settling {
   [[nodiscard]] HandPose carried(const HandPose& hand) const;
   void find_motion();
   void start_outside();
-  [[nodiscard]] Vec3 find_normal() const;
+  [[nodiscard]] Vec3 find_normal();
   [[nodiscard]] Correction after(const HandFreedoms& step) const;
   [[nodiscard]] SettleProblem problem_at(const PosedHand& posed, int round) const;
   void find_forces(const PosedHand& posed, const HandFreedoms& step);
@@ -187,6 +182,7 @@ void Settling::start() {
     memory_.velocity.fill(Vec3::Zero());
     memory_.pulls.fill(1.0);  // no pull has to come first
     memory_.height_m = 0.0;
+    memory_.edge = 0.0;
   }
   search_.seconds = seconds_;
   search_.pulls_before = memory_.pulls;
@@ -221,13 +217,16 @@ void Settling::start_outside() {
   correction_.palm.shift = nearest->point - palm + model_.scale * kPalmThickness_m * push_;
 }
 
-/// Where the object pushes from another face than the one nearest to the palm, that way counts.
-Vec3 Settling::find_normal() const {
+/// Where the object pushes from another face than the one nearest to the palm, that way counts: the
+/// hand goes over an edge.
+Vec3 Settling::find_normal() {
+  memory_.edge *= std::exp(-seconds_ / kEdgeTime_s);
   if (push_.isZero()) return push_;
   const std::optional<SurfacePoint> nearest =
       object_.closest_point(model_.tracked[Joint::palm].position, kDeepest_m, memory_.under_palm);
   if (!nearest) return push_;
   const double share = smoothstep(kOtherFace, kSameFace, nearest->normal.dot(push_));
+  memory_.edge = std::max(memory_.edge, 1.0 - share);
   return (push_ + share * (nearest->normal - push_)).normalized();
 }
 
@@ -239,16 +238,9 @@ SettleProblem Settling::problem_at(const PosedHand& posed, int round) const {
   SettleProblem problem;
   problem.rows = memory_.rows;
 
-  HandFreedoms back;
-  back.head<3>().setConstant(kShiftStiffness);
-  back.segment<3>(3) << kTurnStiffness, kTurnStiffness, kSpinStiffness;
-  for (std::size_t d = 0; d < kDigitCount; ++d) {
-    back.segment<4>(first_freedom(d)) =
-        digit_at(d) == Digit::thumb ? kThumbStiffness : kFingerStiffness;
-  }
   HandFreedoms away = step_between({}, correction_, search_.frame);
   away.head<3>() -= search_.frame.transpose() * (memory_.carried + memory_.drawn_lag);
-  problem.springs.add(back, -away);
+  problem.springs.add(stiffness_of_pose(away), -away);
   // The forces on a hand found anew are not yet those that it will rest with.
   if (!fresh_) problem.springs.add(memory_.geometric, HandFreedoms::Zero());
 
@@ -256,10 +248,12 @@ SettleProblem Settling::problem_at(const PosedHand& posed, int round) const {
   if (!fresh_) {
     HandFreedoms time_s = HandFreedoms::Constant(kReleaseTime_s);
     if (!memory_.push.isZero()) {
+      const double slide_hz = (1.0 - memory_.edge) / kSlideTime_s + memory_.edge / kEdgeSlideTime_s;
       time_s.setConstant(kViscosity_s);
-      time_s.head<3>() << kSlideTime_s, kSlideTime_s, 0.0;  // out of the object at once, and back
+      time_s.head<3>() << 1.0 / slide_hz, 1.0 / slide_hz, 0.0;  // out of the object at once
     }
-    problem.springs.add(back.cwiseProduct(time_s) / seconds_, -changed);
+    const HandFreedoms damping = stiffness_of_pose(HandFreedoms::Zero()).cwiseProduct(time_s);
+    problem.springs.add(damping / seconds_, -changed);
     const double inertia = memory_.push.isZero() ? kInertiaInAir : kInertia;
     add_inertia(coasted_, inertia / (seconds_ * seconds_), posed, search_.frame, problem.springs);
   }

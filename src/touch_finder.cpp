@@ -11,24 +11,32 @@ namespace {
 constexpr double kMargin_m = 0.0002;
 
 // What the person pressed in is drawn to the surface until it is this near, from as far as
-// `kPullReach_m`, with a pull that grows to its full strength with the tracked skin's depth, and
-// with time.
+// `kPullReach_m`, with a pull that comes in time.
 constexpr double kPullRest_m = 0.00028;
-constexpr double kPullFade_m = 0.012;
-constexpr double kPullStart_m = -0.0053;
-constexpr double kPullFull_m = 0.016;
-constexpr double kPullTime_s = 0.072;
-constexpr double kPullStiffness = 8e4;
+constexpr double kPullFade_m = 0.018;
+constexpr double kPullTime_s = 0.082;
+
+/// How a pull grows with the tracked skin's depth.
+struct PullGrowth {
+  double start_m;
+  double full_m;
+  double stiffness;
+};
+constexpr PullGrowth kPartPull{-0.0053, 0.0194, 8e4};
+/// While any skin is pressed in, what is nearest to the surface is kept within reach of a touch: a
+/// hand that leaves does not take off before the person's own does.
+constexpr PullGrowth kTouchPull{0.0, 0.008, 3.2e5};
+constexpr double kHighestTouch_m = 0.0016;
 
 // Skin lands on a cushion and leaves it by the same way: at rest so thick, and thicker by the way
 // that it goes in so long. It never goes quite flat.
 constexpr double kThinnest_m = 0.0004;
-constexpr double kThickest_m = 0.015;
-constexpr double kLandingTime_s = 0.074;
+constexpr double kThickest_m = 0.0123;
+constexpr double kLandingTime_s = 0.08;
 constexpr double kFlat_m = 0.0002;
 /// Drawn skin that comes down by itself brakes no less than this, as stiff as a damper.
-constexpr double kBraking_mpss = 3.3;
-constexpr double kBrakeDamping = 490.0;
+constexpr double kBraking_mpss = 2.05;
+constexpr double kBrakeDamping = 470.0;
 
 /// A pad's plane serves for as long as the pad stays within this, or within this share of how far
 /// its skin is from touching.
@@ -39,7 +47,7 @@ constexpr double kFarSlack_m = 0.02;
 /// Nor is one that faces away, until it could have come this share of what its skin lacks to a row.
 constexpr double kUnseen = 0.5;
 /// At an edge the nearest point's normal turns in a moment. A pad's follows over about this way.
-constexpr double kTurningWay_m = 0.002;
+constexpr double kTurningWay_m = 0.0024;
 /// A pad's curvature is learned from ways of about this length on; no sharper.
 constexpr double kLeastWay_m = 0.0018;
 constexpr double kSharpest = 100.0;
@@ -196,13 +204,12 @@ double add_pad(const TouchSearch& search, const NearPad& near, const PadMemory& 
     const double gap_m = normal.dot(posed.flesh.position(point) - surface_point);
     const double cushion_m = std::max(kFlat_m, cushion.at(gap_m));
     lowest_m = std::min(lowest_m, gap_m);
-    PatchTouch& nearest = patches[kNearestSkin];
-    if (pad.part || gap_m < nearest.gap_m) {
-      const double depth_m = normal.dot(surface_point - search.tracked.position(point));
-      const PatchTouch touch{gap_m,  depth_m,         &point,   surface_point,
-                             normal, known.curvature, cushion_m};
-      if (gap_m < nearest.gap_m) nearest = touch;
-      if (pad.part) join(touch, patches[index_of(*pad.part)]);
+    PatchTouch touch{gap_m,  cushion.lift_m - gap_m, &point,   surface_point,
+                     normal, known.curvature,        cushion_m};
+    join(touch, patches[kNearestSkin]);
+    if (pad.part) {
+      touch.depth_m = normal.dot(surface_point - search.tracked.position(point));
+      join(touch, patches[index_of(*pad.part)]);
     }
     const double above_m = gap_m + search.sink_m - kMargin_m;
     const double brake_m = brake_at(search, near, normal, above_m);
@@ -219,8 +226,9 @@ double add_pad(const TouchSearch& search, const NearPad& near, const PadMemory& 
 }
 
 /// A pull comes in time, and goes at once.
-double pull_share(const TouchSearch& search, const PatchTouch& patch, double before) {
-  const double share = smoothstep(kPullStart_m, kPullFull_m, patch.depth_m) *
+double pull_share(const TouchSearch& search, const PatchTouch& patch, const PullGrowth& growth,
+                  double before) {
+  const double share = smoothstep(growth.start_m, growth.full_m, patch.depth_m) *
                        smoothstep(-kPullReach_m, kPullFade_m - kPullReach_m, -patch.gap_m);
   if (share <= before) return share;
   return share + std::exp(-search.seconds / kPullTime_s) * (before - share);
@@ -230,15 +238,18 @@ void add_pulls(const TouchSearch& search, const PosedHand& posed, const PatchTou
                SettleMemory& memory) {
   for (std::size_t i = 0; i < kPulls; ++i) {
     const PatchTouch& patch = patches[i];
+    const bool nearest = i == kNearestSkin;
+    const PullGrowth& growth = nearest ? kTouchPull : kPartPull;
     const bool drawn = patch.point && memory.rows.size() < kMostContactRows;
-    memory.pulls[i] = drawn ? pull_share(search, patch, search.pulls_before[i]) : 0.0;
+    memory.pulls[i] = drawn ? pull_share(search, patch, growth, search.pulls_before[i]) : 0.0;
     if (memory.pulls[i] == 0.0) continue;
     ContactRow& row =
         memory.rows.emplace_back(motion_along(posed, *patch.point, patch.normal, search.frame));
     row.kind = RowKind::draw_near;
-    row.gap_m = patch.gap_m + search.sink_m - kPullRest_m - patch.cushion_m;
+    const double held_m = nearest ? std::min(patch.cushion_m, kHighestTouch_m) : patch.cushion_m;
+    row.gap_m = patch.gap_m + search.sink_m - kPullRest_m - held_m;
     row.curvature = patch.curvature;
-    row.stiffness = memory.pulls[i] * kPullStiffness;
+    row.stiffness = memory.pulls[i] * growth.stiffness;
   }
 }
 

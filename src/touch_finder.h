@@ -22,7 +22,8 @@ struct PatchTouch {
   double curvature = 0.0;  ///< 1/m
   double cushion_m = 0.0;  ///< as of ContactRow
 };
-/// Each part's patch, and of all skin the point that is nearest to the surface.
+/// Each part's patch, and all skin: its point that is nearest to the surface, and the depth of its
+/// deepest.
 using PatchTouches = std::array<PatchTouch, kPulls>;
 inline constexpr std::size_t kNearestSkin = kPartCount;
 

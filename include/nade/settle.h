@@ -105,6 +105,7 @@ struct SettleMemory {
   Vec3 lag = Vec3::Zero();           ///< along the surface, by friction
   Vec3 drawn_lag = Vec3::Zero();     ///< the same, smoothed
   bool slips = false;
+  double edge = 0.0;  ///< 1 while the hand goes over one, fading after it
   HandFreedoms geometric = HandFreedoms::Zero();  ///< stiffness, of the last round's contacts
   std::array<double, kPulls> pulls{};             ///< shares of the full pull, in the last frame
   std::vector<PadMemory> pads;

@@ -1,0 +1,39 @@
+#include "settle_springs.h"
+
+#include <cmath>
+
+namespace nade {
+namespace {
+
+// A shift of 18 mm costs as much as bending a knuckle by a radian.
+constexpr double kShiftStiffness = 1.0 / (0.018 * 0.018);
+constexpr double kTurnStiffness = 6.0;
+/// About the surface's normal: the heading is the person's own.
+constexpr double kSpinStiffness = 32.0;
+/// Base abduction, base, middle and last flexion. A finger pushed from below gives way at its
+/// knuckle and keeps its curl; a thumb gives way as a whole.
+const DigitFreedoms kFingerStiffness{9.0, 1.1, 7.9, 7.1};
+const DigitFreedoms kThumbStiffness{1.6, 1.6, 3.2, 3.2};
+/// From about here on a spring pulls with the same force (pseudo-Huber).
+constexpr double kFarShift_m = 0.03;
+constexpr double kFarTurn_rad = 0.6;
+
+/// The share that is left of a spring's stiffness, by the way over that where it is far.
+double slackened(double way) { return 1.0 / std::sqrt(1.0 + way * way); }
+
+}  // namespace
+
+HandFreedoms stiffness_of_pose(const HandFreedoms& away) noexcept {
+  HandFreedoms stiffness;
+  stiffness.head<3>().setConstant(kShiftStiffness);
+  stiffness.segment<3>(3) << kTurnStiffness, kTurnStiffness, kSpinStiffness;
+  stiffness.head<3>() *= slackened(away.head<3>().norm() / kFarShift_m);
+  stiffness.segment<3>(3) *= slackened(away.segment<3>(3).norm() / kFarTurn_rad);
+  for (std::size_t d = 0; d < kDigitCount; ++d) {
+    stiffness.segment<4>(first_freedom(d)) =
+        digit_at(d) == Digit::thumb ? kThumbStiffness : kFingerStiffness;
+  }
+  return stiffness;
+}
+
+}  // namespace nade
