@@ -13,7 +13,7 @@ constexpr double kMargin_m = 0.0002;
 // What the person pressed in is drawn to the surface until it is this near, from as far as
 // `kPullReach_m`, with a pull that comes in time.
 constexpr double kPullRest_m = 0.00028;
-constexpr double kPullFade_m = 0.018;
+constexpr double kPullFade_m = 0.012;
 constexpr double kPullTime_s = 0.082;
 
 /// How a pull grows with the tracked skin's depth.
