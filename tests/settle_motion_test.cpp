@@ -122,6 +122,23 @@ TEST(SettleMotion, ATiltedHandLandsWithoutAJolt) {
   }
 }
 
+/// One end of a tilted hand is the last to leave. The drawn one stays on the surface for as long as
+/// that end of the person's own is in it, though the rest is already sent off.
+TEST(SettleMotion, ATiltedHandLeavesNoSoonerThanThePersonsOwn) {
+  for (const double speeding_up_mpss : {0.8, 3.2}) {
+    HandCorrector corrector(settling());
+    for (int i = 0; i < 160; ++i) {
+      const double risen_s = std::max(0, i - 90) / 90.0;
+      const double risen_m = 0.5 * speeding_up_mpss * risen_s * risen_s;
+      const double depth_m = std::min(-0.08 + 0.2 * (i / 90.0), 0.02) - risen_m;
+      const HandPose tracked = pressed_hand(depth_m, 0.8);
+      const HandPose& drawn = corrector.update(tracked, plane(), i * kFrame_ns).pose;
+      if (lowest_skin(tracked, plane()) > -0.003) continue;
+      EXPECT_LT(lowest_skin(drawn, plane()), 0.002) << speeding_up_mpss << ", frame " << i;
+    }
+  }
+}
+
 /// Down onto the surface, ten centimetres ahead, and up again, each from rest to rest.
 TEST(SettleMotion, AStrokeRunsAsCalmlyAsThePersonsOwn) {
   const auto eased = [](double time_s, double from_s, double seconds) {
