@@ -184,7 +184,7 @@ std::vector<Vec3> make_strokes(const MeshSurface& mesh, const TriangleSoup& soup
       path.height = std::clamp(path.height + random.uniform(-0.001, 0.001), -kNear_m, kNear_m);
       const auto on = mesh.closest_point(path.on_surface + kStep_m * path.heading, 1e9, path.hint);
       path.on_surface = on->point;
-      path.heading = (path.heading - path.heading.dot(on->normal) * on->normal).normalized();
+      path.heading = along_surface(path.heading, on->normal).normalized();
       points.push_back(path.on_surface + path.height * on->normal);
     }
   }

@@ -5,7 +5,7 @@
 namespace nade {
 namespace {
 
-// A shift of 18 mm costs as much as bending a knuckle by a radian.
+// A shift of 19 mm costs as much as bending a finger at its knuckle by a radian.
 constexpr double kShiftStiffness = 1.0 / (0.018 * 0.018);
 constexpr double kTurnStiffness = 6.0;
 /// About the surface's normal: the heading is the person's own.

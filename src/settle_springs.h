@@ -4,10 +4,10 @@
 
 namespace nade {
 
-/// What it costs to differ from the tracked hand, as the stiffness of a spring on each freedom: 1
-/// for a cost of a half where a knuckle bends by a radian; shifts in metres. `away` is how far the
-/// hand is. The farther a shift or a turn goes, the softer its spring, so that a deep press neither
-/// bores into the object nor keeps the hand from lying flat on it.
+/// What it costs to differ from the tracked hand: the stiffness of a spring on each freedom, which
+/// costs half of itself for a radian or a metre. `away` is how far the hand is. The farther a shift
+/// or a turn goes, the softer its spring, so that a deep press neither bores into the object nor
+/// keeps the hand from lying flat on it.
 [[nodiscard]] HandFreedoms stiffness_of_pose(const HandFreedoms& away) noexcept;
 
 }  // namespace nade

@@ -70,8 +70,7 @@ double pressed_path_m(const CaseRecording& recording, const Object& object) {
       const auto nearest = skin ? object.closest_point(*skin, kNear_m, hint) : std::nullopt;
       const bool pressed = nearest && nearest->signed_distance < -kPressed_m;
       if (pressed && was_pressed) {
-        const Vec3 step = *skin - before;
-        path_m += (step - step.dot(nearest->normal) * nearest->normal).norm();
+        path_m += along_surface(*skin - before, nearest->normal).norm();
       }
       if (skin) before = *skin;
       was_pressed = pressed;

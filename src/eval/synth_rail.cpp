@@ -107,7 +107,7 @@ Vec3 StrokePatch::walk(const PatternPoint& point) const {
     const auto nearest = object_.closest_point(here + distance / steps * way, kNear_m, hint);
     if (!nearest) return here;
     here = nearest->point;
-    const Vec3 tangent = way - way.dot(nearest->normal) * nearest->normal;
+    const Vec3 tangent = along_surface(way, nearest->normal);
     if (tangent.norm() < 1e-6) return here;
     way = tangent.normalized();
   }
