@@ -97,6 +97,7 @@ std::optional<SkinDepths> believable_radii(const HandPose& hand) noexcept {
 
 HandCorrector::HandCorrector(const CorrectorOptions& options) : options_(options) {
   NADE_ASSERT(options.skin_hand_length_m > 0.0);
+  NADE_ASSERT(options.hand_length_m >= 0.0);
   NADE_ASSERT(options.release_s >= 0.0 && options.release_s <= 1.0);
   NADE_ASSERT(options.contact.full_turn_depth_m >= 0.0);
   NADE_ASSERT(options.settle.softness_depth_m > 0.0);
@@ -173,6 +174,7 @@ void HandCorrector::start_frame(const HandPose& tracked, std::int64_t time_ns) n
   }
   frames_ = std::min(frames_ + 1, kLengthFrames);
   hand_length_m_ += (hand_length(tracked) - hand_length_m_) / static_cast<double>(frames_);
+  if (options_.hand_length_m > 0.0) hand_length_m_ = options_.hand_length_m;
 }
 
 const HandFlesh& HandCorrector::flesh_of(Handedness side) const noexcept {

@@ -215,6 +215,18 @@ TEST(Corrector, ALargerHandHasThickerSkin) {
   }
 }
 
+/// A tracker that errs by a tenth does not change the hand that is drawn.
+TEST(Corrector, AKnownLengthOfTheHandCountsMoreThanTheTrackers) {
+  HandPose hand = generic_size_hand();
+  for (Pose& joint : hand.joints) joint.position *= 1.1;
+  hand = test::placed_hand(hand, {0.0, palm_skin() - 0.02, 0.0});
+  CorrectorOptions options = by_paper();
+  options.hand_length_m = kGenericHandLength;
+  HandCorrector corrector(options);
+  const CorrectedHand& result = corrector.update(hand, plane(), 0);
+  EXPECT_NEAR(result.pose[Joint::palm].position.y(), palm_skin(), 1e-6);
+}
+
 TEST(Corrector, BelievableRadiiAreUsedAndOthersAreNot) {
   HandPose hand = pressed_hand(0.03);
   EXPECT_FALSE(believable_radii(hand).has_value());

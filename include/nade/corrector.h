@@ -42,6 +42,9 @@ struct CorrectorOptions {
   /// lost and found) fades over this time. Seconds, 0 (at once) to 1.
   double release_s = 0.2;
   SettleOptions settle;
+  /// Wrist to middle knuckle of the hand that is drawn, metres, where it is known, as from a
+  /// calibration; 0: what the tracker says on the average so far. A tracker may err by a tenth.
+  double hand_length_m = 0.0;
   /// Method `nade`: what can touch of each hand, by index_of(Handedness). Measure it on your own
   /// hand mesh if you draw another than the generic hand, which empty ones stand for.
   std::array<std::shared_ptr<const HandFlesh>, 2> flesh;

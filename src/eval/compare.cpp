@@ -23,6 +23,7 @@ ComparedMethod corrector_method(std::string name, Method method) {
   return {std::move(name), [method](const SolverContext& context) -> HandSolver {
             CorrectorOptions options;
             options.method = method;
+            options.hand_length_m = context.hand_scale * context.flesh->hand_length_m;
             options.flesh[index_of(context.side)] = context.flesh;
             const auto corrector = std::make_shared<HandCorrector>(options);
             return [corrector](const HandPose& tracked, const Object& object,
