@@ -9,6 +9,7 @@
 #include "settle_solver.h"
 #include "settle_springs.h"
 #include "settle_step.h"
+#include "settle_unrest.h"
 #include "touch_finder.h"
 
 namespace nade {
@@ -155,6 +156,7 @@ void Settling::find_motion() {
   if (!last.tracked) return;
   const HandPose& now = model_.tracked;
   const HandPose along = carried(*last.tracked);
+  follow_unrest(*last.tracked, now, seconds_, memory_.unrest);
   motion_m_ = std::max(largest_motion(*last.tracked, now), largest_motion(along, now));
   const double follow = memory_.fresh ? 1.0 : 1.0 - std::exp(-seconds_ / kVelocityTime_s);
   follow_velocity(along, now, object_.placement().pose.rotation, seconds_, follow,
@@ -183,6 +185,7 @@ void Settling::start() {
     memory_.pulls.fill(1.0);  // no pull has to come first
     memory_.height_m = 0.0;
     memory_.edge = 0.0;
+    memory_.unrest = no_unrest();
   }
   search_.seconds = seconds_;
   search_.pulls_before = memory_.pulls;
@@ -195,6 +198,9 @@ void Settling::start() {
   search_.push = push_;
   normal_ = find_normal();
   search_.frame = surface_frame(normal_, tracked[Joint::palm].rotation);
+  const double curl_rad = curl_of(model_);
+  if (memory_.push.isZero()) memory_.curl_rad = curl_rad;
+  search_.strength = pull_strength(memory_.unrest, {curl_rad, memory_.curl_rad}, memory_.edge);
   correction_ = after(HandFreedoms::Zero());  // into the range of this frame's pose
   last_ = correction_;
   last_.palm.shift += follow_lag(seconds_, memory_);
@@ -395,6 +401,7 @@ SettleMemory settle_memory(const HandFlesh& flesh) {
   memory.joints.fill(Vec3::Zero());  // Eigen's vectors begin with whatever was there
   memory.velocity.fill(Vec3::Zero());
   memory.drift.fill(Vec3::Zero());
+  memory.unrest = no_unrest();
   return memory;
 }
 

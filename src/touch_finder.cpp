@@ -249,7 +249,8 @@ void add_pulls(const TouchSearch& search, const PosedHand& posed, const PatchTou
     const double held_m = nearest ? std::min(patch.cushion_m, kHighestTouch_m) : patch.cushion_m;
     row.gap_m = patch.gap_m + search.sink_m - kPullRest_m - held_m;
     row.curvature = patch.curvature;
-    row.stiffness = memory.pulls[i] * growth.stiffness;
+    const double strength = nearest ? search.strength.touch : search.strength.parts;
+    row.stiffness = memory.pulls[i] * strength * growth.stiffness;
   }
 }
 
