@@ -23,31 +23,31 @@ constexpr double kRowReachOfMotion = 0.4;
 // How fast a correction may change where nothing pushes: so many times the tracked hand's own
 // motion, and a little more, so that a hand at rest is released as well.
 constexpr double kShiftRate = 2.0;
-constexpr double kTurnRate = 1.13;
-constexpr double kBendRate = 0.47;
+constexpr double kTurnRate = 1.09;
+constexpr double kBendRate = 0.4;
 constexpr double kFreeRate_mps = 0.003;
 constexpr double kWallStiffness = 1e5;
 /// A joint's mass: a spring of this over the square of the frame's seconds keeps it going. Less in
 /// the air, where the hand comes back to the tracked one.
 constexpr double kInertia = 1.54;
-constexpr double kInertiaInAir = 0.65;
+constexpr double kInertiaInAir = 0.75;
 /// Turns and bends follow with this time constant.
 constexpr double kViscosity_s = 0.061;
 /// And shifts along the surface with this: there the hand moves as the person's does.
 constexpr double kSlideTime_s = 30.0;
 /// Over an edge what was depth on one face is astray on the other: there it goes with this, for as
 /// long as an edge is remembered.
-constexpr double kEdgeSlideTime_s = 0.4;
+constexpr double kEdgeSlideTime_s = 0.376;
 constexpr double kEdgeTime_s = 0.29;
 /// In the air, all of a correction goes with this.
-constexpr double kReleaseTime_s = 0.093;
+constexpr double kReleaseTime_s = 0.08;
 /// No joint goes farther in a frame than so many times the tracked hand's fastest, and a little
 /// more, unless the object pushes harder than this holds it back.
-constexpr double kFastest = 1.04;
+constexpr double kFastest = 1.02;
 /// What the tracked joints do against the object is smoothed over this time.
 constexpr double kVelocityTime_s = 0.016;
 /// The direction of the object's push is smoothed over this time.
-constexpr double kPushTime_s = 0.2;
+constexpr double kPushTime_s = 0.253;
 /// Cosines between that and a face's normal: from another face, and surely from the same.
 constexpr double kOtherFace = 0.05;
 constexpr double kSameFace = 0.3;

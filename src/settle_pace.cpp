@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kHoldStiffness = 1e5;
 /// The time constant with which a drawn joint takes on the tracked one's velocity.
-constexpr double kCoastTime_s = 0.07;
+constexpr double kCoastTime_s = 0.069;
 
 /// From a tracked joint to the drawn one, in the object's frame.
 Vec3 offset_of(const SettledFrame& frame, std::size_t joint) {

@@ -7,10 +7,10 @@ namespace nade {
 namespace {
 
 /// Unrest is the mean over about this time.
-constexpr double kUnrestTime_s = 0.25;
+constexpr double kUnrestTime_s = 0.35;
 /// A hand is calm up to this, and restless from that on.
-constexpr double kCalm_mpss = 0.05;
-constexpr double kRestless_mpss = 0.3;
+constexpr double kCalm_mpss = 0.1;
+constexpr double kRestless_mpss = 0.4;
 /// The pulls on a restless hand are so many times as strong.
 constexpr double kRestlessPull = 25.0;
 /// Fingers are relaxed up to this curl.
@@ -20,6 +20,13 @@ constexpr double kCurled_rad = 0.35;
 /// Where each frame errs by itself, the change's square is so many times the acceleration's: third
 /// differences against second ones.
 constexpr double kWhiteChange = 20.0 / 6.0;
+
+/// 0 for a hand that moves smoothly, to 1 for one that trembles or whose tracker errs.
+double unrest_share(const Unrest& unrest) {
+  if (!(unrest.root_mean > 0.0)) return 0.0;
+  const double white_square = std::pow(unrest.change_root_mean, 4) / kWhiteChange;
+  return smoothstep(kCalm_mpss, kRestless_mpss, white_square / std::pow(unrest.root_mean, 2));
+}
 
 }  // namespace
 
@@ -49,12 +56,6 @@ void follow_unrest(const HandPose& last, const HandPose& now, double seconds,
   if (unrest.frames >= 1) follow(square, unrest.root_mean);
   if (unrest.frames >= 2) follow(change_square, unrest.change_root_mean);
   unrest.frames = std::min(unrest.frames + 1, 2);
-}
-
-double unrest_share(const Unrest& unrest) noexcept {
-  if (!(unrest.root_mean > 0.0)) return 0.0;
-  const double white_square = std::pow(unrest.change_root_mean, 4) / kWhiteChange;
-  return smoothstep(kCalm_mpss, kRestless_mpss, white_square / std::pow(unrest.root_mean, 2));
 }
 
 double curl_of(const HandModel& model) noexcept {

@@ -15,10 +15,6 @@ namespace nade {
 void follow_unrest(const HandPose& last, const HandPose& now, double seconds,
                    Unrest& unrest) noexcept;
 
-/// 0 for a hand that moves smoothly, however fast, to 1 for one that trembles or whose tracker errs
-/// as trackers do.
-[[nodiscard]] double unrest_share(const Unrest& unrest) noexcept;
-
 /// Middle and last flexion of the tracked fingers, their mean, radians.
 [[nodiscard]] double curl_of(const HandModel& model) noexcept;
 

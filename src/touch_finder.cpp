@@ -13,8 +13,8 @@ constexpr double kMargin_m = 0.0002;
 // What the person pressed in is drawn to the surface until it is this near, from as far as
 // `kPullReach_m`, with a pull that comes in time.
 constexpr double kPullRest_m = 0.00028;
-constexpr double kPullFade_m = 0.012;
-constexpr double kPullTime_s = 0.082;
+constexpr double kPullFade_m = 0.0097;
+constexpr double kPullTime_s = 0.08;
 
 /// How a pull grows with the tracked skin's depth.
 struct PullGrowth {
@@ -22,11 +22,11 @@ struct PullGrowth {
   double full_m;
   double stiffness;
 };
-constexpr PullGrowth kPartPull{-0.0053, 0.0194, 8e4};
+constexpr PullGrowth kPartPull{-0.0053, 0.0187, 5.63e4};
 /// While any skin is pressed in, what is nearest to the surface is kept within reach of a touch: a
 /// hand that leaves does not take off before the person's own does.
-constexpr PullGrowth kTouchPull{0.0, 0.008, 3.2e5};
-constexpr double kHighestTouch_m = 0.0016;
+constexpr PullGrowth kTouchPull{0.0, 0.0137, 3.48e5};
+constexpr double kHighestTouch_m = 0.0012;
 
 // Skin lands on a cushion and leaves it by the same way: at rest so thick, and thicker by the way
 // that it goes in so long. It never goes quite flat.
@@ -35,8 +35,8 @@ constexpr double kThickest_m = 0.0123;
 constexpr double kLandingTime_s = 0.08;
 constexpr double kFlat_m = 0.0002;
 /// Drawn skin that comes down by itself brakes no less than this, as stiff as a damper.
-constexpr double kBraking_mpss = 2.05;
-constexpr double kBrakeDamping = 470.0;
+constexpr double kBraking_mpss = 1.92;
+constexpr double kBrakeDamping = 500.0;
 
 /// A pad's plane serves for as long as the pad stays within this, or within this share of how far
 /// its skin is from touching.
@@ -47,7 +47,7 @@ constexpr double kFarSlack_m = 0.02;
 /// Nor is one that faces away, until it could have come this share of what its skin lacks to a row.
 constexpr double kUnseen = 0.5;
 /// At an edge the nearest point's normal turns in a moment. A pad's follows over about this way.
-constexpr double kTurningWay_m = 0.0024;
+constexpr double kTurningWay_m = 0.0026;
 /// A pad's curvature is learned from ways of about this length on; no sharper.
 constexpr double kLeastWay_m = 0.0018;
 constexpr double kSharpest = 100.0;

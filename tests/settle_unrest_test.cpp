@@ -37,8 +37,8 @@ HandPose drawn_at_rest(const HandPose& tracked, bool trembles) {
   for (int i = 0; i < 270; ++i) {
     const double lift_m = 0.1 * std::max(0.0, 1.0 - i / 90.0);
     const HandPose hand = moved(tracked, Pose{Vec3(0.0, lift_m, 0.0), Quat::Identity()});
-    drawn = corrector.update(trembles ? trembling(hand, random) : hand, plane(), i * kFrame_ns)
-                .pose;
+    drawn =
+        corrector.update(trembles ? trembling(hand, random) : hand, plane(), i * kFrame_ns).pose;
   }
   return drawn;
 }

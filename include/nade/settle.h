@@ -93,7 +93,7 @@ using JointVectors = std::array<Vec3, kJointCount>;
 
 /// How a tracked hand's joints accelerate, and how much of that is new in each frame: tremor, and
 /// the tracker's errors. What the object adds to a restless motion is less to be seen than on a
-/// smooth one. World frame. The means are over about a quarter of a second of the root mean square
+/// smooth one. World frame. The means are over about a third of a second of the root mean square
 /// over the joints, and of square roots, so that one sudden turn counts for little.
 struct Unrest {
   JointVectors velocity{};        ///< m/s
