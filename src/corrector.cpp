@@ -97,7 +97,7 @@ std::optional<SkinDepths> believable_radii(const HandPose& hand) noexcept {
 
 HandCorrector::HandCorrector(const CorrectorOptions& options) : options_(options) {
   NADE_ASSERT(options.skin_hand_length_m > 0.0);
-  NADE_ASSERT(options.hand_length_m >= 0.0);
+  NADE_ASSERT(options.hand_length_m >= 0.0 && std::isfinite(options.hand_length_m));
   NADE_ASSERT(options.release_s >= 0.0 && options.release_s <= 1.0);
   NADE_ASSERT(options.contact.full_turn_depth_m >= 0.0);
   NADE_ASSERT(options.settle.softness_depth_m > 0.0);
@@ -110,7 +110,11 @@ HandCorrector::HandCorrector(const CorrectorOptions& options) : options_(options
 
 void HandCorrector::reset() noexcept {
   contact_memory_ = {};
-  for (SettleMemory& memory : settle_memory_) memory.last.tracked.reset();
+  for (SettleMemory& memory : settle_memory_) {
+    memory.last.tracked.reset();
+    memory.unrest.samples = 0;
+    memory.unrest.root_mean = memory.unrest.change_root_mean = 0.0;
+  }
   last_.reset();
   release_start_ns_.reset();
   hand_length_m_ = 0.0;

@@ -42,7 +42,7 @@ constexpr double kEdgeTime_s = 0.29;
 /// In the air, all of a correction goes with this.
 constexpr double kReleaseTime_s = 0.08;
 /// No joint goes farther in a frame than so many times the tracked hand's fastest, and a little
-/// more, unless the object pushes harder than this holds it back.
+/// more, unless the object pushes or pulls harder than this holds it back.
 constexpr double kFastest = 1.02;
 /// What the tracked joints do against the object is smoothed over this time.
 constexpr double kVelocityTime_s = 0.016;
@@ -82,6 +82,7 @@ class Settling {
         memory_(memory),
         model_(measure_model(tracked, scale)),
         search_{flesh, object, pose_flesh(tracked, scale), {}, scale},
+        since_last_s_(seconds),
         seconds_(std::clamp(seconds, kShortestFrame_s, kLongestFrame_s)) {
     start();
   }
@@ -130,7 +131,8 @@ class Settling {
   SettleMemory& memory_;
   HandModel model_;
   TouchSearch search_;
-  double seconds_;
+  double since_last_s_;  ///< as it is
+  double seconds_;       ///< as it counts
 
   bool fresh_ = false;
   /// Of the tracked hand since the last frame, in the world or against the object, whichever is
@@ -156,7 +158,6 @@ void Settling::find_motion() {
   if (!last.tracked) return;
   const HandPose& now = model_.tracked;
   const HandPose along = carried(*last.tracked);
-  follow_unrest(*last.tracked, now, seconds_, memory_.unrest);
   motion_m_ = std::max(largest_motion(*last.tracked, now), largest_motion(along, now));
   const double follow = memory_.fresh ? 1.0 : 1.0 - std::exp(-seconds_ / kVelocityTime_s);
   follow_velocity(along, now, object_.placement().pose.rotation, seconds_, follow,
@@ -182,10 +183,9 @@ void Settling::start() {
     forget_slide(memory_);
     memory_.geometric.setZero();
     memory_.velocity.fill(Vec3::Zero());
-    memory_.pulls.fill(1.0);  // no pull has to come first
     memory_.height_m = 0.0;
     memory_.edge = 0.0;
-    memory_.unrest = no_unrest();
+    if (same_surface) break_motion(memory_.unrest);
   }
   search_.seconds = seconds_;
   search_.pulls_before = memory_.pulls;
@@ -198,10 +198,11 @@ void Settling::start() {
   search_.push = push_;
   normal_ = find_normal();
   search_.frame = surface_frame(normal_, tracked[Joint::palm].rotation);
-  const double curl_rad = curl_of(model_);
-  if (memory_.push.isZero()) memory_.curl_rad = curl_rad;
-  search_.strength = pull_strength(memory_.unrest, {curl_rad, memory_.curl_rad}, memory_.edge);
-  correction_ = after(HandFreedoms::Zero());  // into the range of this frame's pose
+  follow_unrest(tracked, since_last_s_, memory_.unrest);
+  if (memory_.push.isZero()) memory_.curl_at_touch = curls_of(model_);
+  search_.strengths = pull_strengths(memory_.unrest, model_, memory_.curl_at_touch, memory_.edge);
+  if (fresh_) search_.pulls_before = search_.strengths;  // no pull has to come first
+  correction_ = after(HandFreedoms::Zero());             // into the range of this frame's pose
   last_ = correction_;
   last_.palm.shift += follow_lag(seconds_, memory_);
   for (std::size_t i = 0; i < kJointCount; ++i) {

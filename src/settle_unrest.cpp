@@ -2,76 +2,115 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace nade {
 namespace {
 
 /// Unrest is the mean over about this time.
 constexpr double kUnrestTime_s = 0.35;
-/// A hand is calm up to this, and restless from that on.
-constexpr double kCalm_mpss = 0.1;
-constexpr double kRestless_mpss = 0.4;
+/// Samples are taken no closer than this, and belong to one motion if they are no farther apart.
+constexpr double kClosest_s = 0.002;
+constexpr double kFarthest_s = 0.05;
+/// A hand is calm up to this, and restless from that on; at 90 samples a second.
+constexpr double kCalm_mpss = 0.05;
+constexpr double kRestless_mpss = 0.25;
+/// Whose joints accelerate by less is at rest.
+constexpr double kStill_mpss = 1e-6;
 /// The pulls on a restless hand are so many times as strong.
 constexpr double kRestlessPull = 25.0;
 /// Fingers are relaxed up to this curl.
 constexpr double kRelaxed_rad = 0.9;
-/// Curled by so much more, a hand's parts are drawn no stronger than a calm hand's.
-constexpr double kCurled_rad = 0.35;
+/// Curled by so much more, a finger is drawn no more strongly than a calm hand's.
+constexpr double kCurled_rad = 0.5;
 /// Where each frame errs by itself, the change's square is so many times the acceleration's: third
 /// differences against second ones.
 constexpr double kWhiteChange = 20.0 / 6.0;
 
-/// 0 for a hand that moves smoothly, to 1 for one that trembles or whose tracker errs.
+/// 0 for a hand that moves smoothly, to 1 for one that trembles or whose tracker errs. Of white
+/// errors the acceleration's change is `kWhiteChange` of it, of a smooth motion next to nothing.
 double unrest_share(const Unrest& unrest) {
-  if (!(unrest.root_mean > 0.0)) return 0.0;
-  const double white_square = std::pow(unrest.change_root_mean, 4) / kWhiteChange;
-  return smoothstep(kCalm_mpss, kRestless_mpss, white_square / std::pow(unrest.root_mean, 2));
+  const double acceleration = unrest.root_mean * unrest.root_mean;
+  if (!(acceleration > kStill_mpss)) return 0.0;
+  const double white = unrest.change_root_mean * unrest.change_root_mean / std::sqrt(kWhiteChange);
+  const double newness = white / acceleration;
+  return smoothstep(kCalm_mpss, kRestless_mpss, newness * newness * white);
+}
+
+/// 1 for a finger that is open, 0 for one that is curled.
+double openness(double curl_rad, double at_touch_rad) {
+  const double added_rad = curl_rad - std::min(at_touch_rad, kRelaxed_rad);
+  return 1.0 - smoothstep(0.0, kCurled_rad, added_rad);
 }
 
 }  // namespace
 
 Unrest no_unrest() noexcept {
   Unrest unrest;
+  unrest.joints.fill(Vec3::Zero());
   unrest.velocity.fill(Vec3::Zero());
   unrest.acceleration.fill(Vec3::Zero());
   return unrest;
 }
 
-void follow_unrest(const HandPose& last, const HandPose& now, double seconds,
-                   Unrest& unrest) noexcept {
+void break_motion(Unrest& unrest) noexcept { unrest.samples = 0; }
+
+void follow_unrest(const HandPose& hand, double seconds, Unrest& unrest) noexcept {
+  unrest.elapsed_s += seconds;
+  bool moved = false;
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    moved = moved || hand.joints[i].position != unrest.joints[i];
+  }
+  if (unrest.samples > 0 && (!moved || unrest.elapsed_s < kClosest_s)) return;
+  if (unrest.elapsed_s > kFarthest_s) break_motion(unrest);
+  const double elapsed_s = std::exchange(unrest.elapsed_s, 0.0);
   double square = 0.0;
   double change_square = 0.0;
   for (std::size_t i = 0; i < kJointCount; ++i) {
-    const Vec3 velocity = (now.joints[i].position - last.joints[i].position) / seconds;
-    const Vec3 acceleration = (velocity - unrest.velocity[i]) / seconds;
-    square += acceleration.squaredNorm();
-    change_square += (acceleration - unrest.acceleration[i]).squaredNorm();
-    unrest.velocity[i] = velocity;
-    unrest.acceleration[i] = acceleration;
+    const Vec3 joint = hand.joints[i].position;
+    if (unrest.samples > 0) {
+      const Vec3 velocity = (joint - unrest.joints[i]) / elapsed_s;
+      const Vec3 acceleration = (velocity - unrest.velocity[i]) / elapsed_s;
+      square += acceleration.squaredNorm();
+      change_square += (acceleration - unrest.acceleration[i]).squaredNorm();
+      unrest.velocity[i] = velocity;
+      unrest.acceleration[i] = acceleration;
+    }
+    unrest.joints[i] = joint;
   }
-  const double share = 1.0 - std::exp(-seconds / kUnrestTime_s);
+  const double share = 1.0 - std::exp(-elapsed_s / kUnrestTime_s);
   const auto follow = [share](double sum, double& root_mean) {
     root_mean += share * (std::pow(sum / kJointCount, 0.25) - root_mean);
   };
-  if (unrest.frames >= 1) follow(square, unrest.root_mean);
-  if (unrest.frames >= 2) follow(change_square, unrest.change_root_mean);
-  unrest.frames = std::min(unrest.frames + 1, 2);
+  if (unrest.samples >= 2) follow(square, unrest.root_mean);
+  if (unrest.samples >= 3) follow(change_square, unrest.change_root_mean);
+  unrest.samples = std::min(unrest.samples + 1, 3);
 }
 
-double curl_of(const HandModel& model) noexcept {
-  double sum = 0.0;
+FingerCurls curls_of(const HandModel& model) noexcept {
+  FingerCurls curls{};
   for (std::size_t d = 0; d < kDigitCount; ++d) {
     if (digit_at(d) == Digit::thumb) continue;
-    sum += model.chains[d].angles[1].flexion + model.chains[d].angles[2].flexion;
+    curls[d] = model.chains[d].angles[1].flexion + model.chains[d].angles[2].flexion;
   }
-  return sum / (kDigitCount - 1);
+  return curls;
 }
 
-PullStrength pull_strength(const Unrest& unrest, const Curl& curl, double edge) noexcept {
+PullStrengths pull_strengths(const Unrest& unrest, const HandModel& model,
+                             const FingerCurls& at_touch, double edge) noexcept {
   const double share = unrest_share(unrest) * (1.0 - edge);
-  const double added_rad = curl.now_rad - std::min(curl.at_touch_rad, kRelaxed_rad);
-  const double open = 1.0 - smoothstep(0.0, kCurled_rad, added_rad);
-  return {std::pow(kRestlessPull, share * open), std::pow(kRestlessPull, share)};
+  const FingerCurls curls = curls_of(model);
+  PullStrengths strengths;
+  strengths[kNearestSkin] = std::pow(kRestlessPull, share);
+  double most_curled = 1.0;
+  for (std::size_t d = 0; d < kDigitCount; ++d) {
+    const double open = openness(curls[d], at_touch[d]);
+    most_curled = std::min(most_curled, open);
+    strengths[index_of(part_of(digit_at(d)))] = std::pow(kRestlessPull, share * open);
+  }
+  // What draws the palm down would open the finger that holds it up.
+  strengths[index_of(Part::palm)] = std::pow(kRestlessPull, share * most_curled);
+  return strengths;
 }
 
 }  // namespace nade

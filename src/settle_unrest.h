@@ -6,26 +6,24 @@
 
 namespace nade {
 
-// How much stronger than a calm hand a restless one may be drawn to the surface.
+// How much more strongly than a calm hand a restless one may be drawn to the surface.
 
 /// Of a hand that was not seen before.
 [[nodiscard]] Unrest no_unrest() noexcept;
 
-/// Takes in how the tracked hand went on from the last frame.
-void follow_unrest(const HandPose& last, const HandPose& now, double seconds,
-                   Unrest& unrest) noexcept;
+/// Takes in a frame of the tracked hand, `seconds` after the last. What repeats the last sample,
+/// or comes at once after it, says nothing; a motion is not followed over a gap.
+void follow_unrest(const HandPose& hand, double seconds, Unrest& unrest) noexcept;
 
-/// Middle and last flexion of the tracked fingers, their mean, radians.
-[[nodiscard]] double curl_of(const HandModel& model) noexcept;
+/// After a jump: what is known of the hand's unrest stays, its motion starts anew.
+void break_motion(Unrest& unrest) noexcept;
 
-/// How the person curls the fingers. Drawn to the surface strongly, they would be opened.
-struct Curl {
-  double now_rad = 0.0;
-  double at_touch_rad = 0.0;  ///< when the hand touched
-};
-
+/// For the tracked hand of `model`. `at_touch` is how its fingers were curled when it touched;
 /// `edge` is `SettleMemory::edge`.
-[[nodiscard]] PullStrength pull_strength(const Unrest& unrest, const Curl& curl,
-                                         double edge) noexcept;
+[[nodiscard]] PullStrengths pull_strengths(const Unrest& unrest, const HandModel& model,
+                                           const FingerCurls& at_touch, double edge) noexcept;
+
+/// How the tracked fingers are curled.
+[[nodiscard]] FingerCurls curls_of(const HandModel& model) noexcept;
 
 }  // namespace nade

@@ -225,13 +225,15 @@ double add_pad(const TouchSearch& search, const NearPad& near, const PadMemory& 
   return lowest_m;
 }
 
-/// A pull comes in time, and goes at once.
-double pull_share(const TouchSearch& search, const PatchTouch& patch, const PullGrowth& growth,
-                  double before) {
-  const double share = smoothstep(growth.start_m, growth.full_m, patch.depth_m) *
-                       smoothstep(-kPullReach_m, kPullFade_m - kPullReach_m, -patch.gap_m);
-  if (share <= before) return share;
-  return share + std::exp(-search.seconds / kPullTime_s) * (before - share);
+/// How strong a pull is, as `SettleMemory::pulls` has it: it comes in time, and goes at once.
+double pull_strength(const TouchSearch& search, const PatchTouch& patch, const PullGrowth& growth,
+                     std::size_t pull) {
+  const double before = search.pulls_before[pull];
+  const double strength = search.strengths[pull] *
+                          smoothstep(growth.start_m, growth.full_m, patch.depth_m) *
+                          smoothstep(-kPullReach_m, kPullFade_m - kPullReach_m, -patch.gap_m);
+  if (strength <= before) return strength;
+  return strength + std::exp(-search.seconds / kPullTime_s) * (before - strength);
 }
 
 void add_pulls(const TouchSearch& search, const PosedHand& posed, const PatchTouches& patches,
@@ -241,7 +243,7 @@ void add_pulls(const TouchSearch& search, const PosedHand& posed, const PatchTou
     const bool nearest = i == kNearestSkin;
     const PullGrowth& growth = nearest ? kTouchPull : kPartPull;
     const bool drawn = patch.point && memory.rows.size() < kMostContactRows;
-    memory.pulls[i] = drawn ? pull_share(search, patch, growth, search.pulls_before[i]) : 0.0;
+    memory.pulls[i] = drawn ? pull_strength(search, patch, growth, i) : 0.0;
     if (memory.pulls[i] == 0.0) continue;
     ContactRow& row =
         memory.rows.emplace_back(motion_along(posed, *patch.point, patch.normal, search.frame));
@@ -249,8 +251,7 @@ void add_pulls(const TouchSearch& search, const PosedHand& posed, const PatchTou
     const double held_m = nearest ? std::min(patch.cushion_m, kHighestTouch_m) : patch.cushion_m;
     row.gap_m = patch.gap_m + search.sink_m - kPullRest_m - held_m;
     row.curvature = patch.curvature;
-    const double strength = nearest ? search.strength.touch : search.strength.parts;
-    row.stiffness = memory.pulls[i] * strength * growth.stiffness;
+    row.stiffness = memory.pulls[i] * growth.stiffness;
   }
 }
 

@@ -30,12 +30,8 @@ inline constexpr std::size_t kNearestSkin = kPartCount;
 /// From farther than this a patch is not drawn to the surface.
 inline constexpr double kPullReach_m = 0.03;
 
-/// How many times as strong as on a calm hand the pulls are: on what the person pressed in, and on
-/// what keeps touch.
-struct PullStrength {
-  double parts = 1.0;
-  double touch = 1.0;
-};
+/// How many times as strong as on a calm hand each pull is.
+using PullStrengths = std::array<double, kPulls>;
 
 /// What a frame's rounds look for, and where.
 struct TouchSearch {
@@ -47,7 +43,7 @@ struct TouchSearch {
   double scale = 1.0;                         ///< of the tracked hand over the flesh
   double seconds = 0.0;                       ///< since the last frame
   std::array<double, kPulls> pulls_before{};  ///< `SettleMemory::pulls` of the last frame
-  PullStrength strength{};
+  PullStrengths strengths{};
   JointVectors velocity{};                              ///< of the tracked joints, world, smoothed
   double braking_mpss = 0.0;                            ///< `braking_at` the tracked hand's speed
   Vec3 push = Vec3::Zero();                             ///< unit, or zero in the air

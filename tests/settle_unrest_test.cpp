@@ -70,5 +70,56 @@ TEST(SettleUnrest, AFistStaysAFist) {
   EXPECT_NEAR(curl_rad(drawn_at_rest(tracked, true)), calm_rad, 0.05);
 }
 
+/// A finger that holds the palm up was opened by it.
+TEST(SettleUnrest, OneCurledFingerStaysCurled) {
+  HandAngles angles = test::relaxed_angles();
+  for (std::size_t hinge = 1; hinge < kHingeCount; ++hinge) {
+    angles[index_of(Digit::index)][hinge].flexion = 1.2;
+  }
+  const HandPose hand = test::generic_size_hand(Handedness::right, angles);
+  const HandPose drawn = drawn_at_rest(pressed_hand(0.02, 0.0, Vec3::Zero(), hand), true);
+  const DigitAngles bent = measure_angles(drawn)[index_of(Digit::index)];
+  EXPECT_GT(bent[1].flexion + bent[2].flexion, 2.0);
+}
+
+/// Frames that are all the same for minutes, as of a tracker that is stuck: what was smoothed over
+/// them sank until it was divided by nothing.
+TEST(SettleUnrest, AHandThatKeepsStillForMinutesStaysWhereItIs) {
+  HandCorrector corrector(settling());
+  Random random(7);
+  HandPose rested;
+  for (int i = 0; i < 15000; ++i) {
+    const HandPose tracked = pressed_hand(std::min(0.02, -0.1 + 0.001 * i));
+    const HandPose& drawn =
+        corrector.update(i < 200 ? trembling(tracked, random) : tracked, plane(), i * kFrame_ns)
+            .pose;
+    if (i == 1000) rested = drawn;
+    if (i > 1000) {
+      ASSERT_LT(largest_motion(rested, drawn), 0.001) << "frame " << i;
+    }
+  }
+}
+
+/// A smooth stroke whose poses come twice, in one instant or one after the other, is as calm.
+TEST(SettleUnrest, PosesThatRepeatAreNoTremor) {
+  const auto drawn_height_m = [](int times, std::int64_t apart_ns) {
+    HandCorrector corrector(settling());
+    double height_m = 0.0;
+    for (int i = 0; i < 270; ++i) {
+      const double lift_m = 0.1 * std::max(0.0, 1.0 - i / 90.0);
+      const Vec3 along(0.0, lift_m, 0.1 * std::sin(0.03 * i));
+      const HandPose tracked = pressed_hand(0.02, 0.6, along);
+      for (int k = 0; k < times; ++k) {
+        const std::int64_t time_ns = i * (apart_ns > 0 ? 2 : 1) * kFrame_ns + k * apart_ns;
+        height_m = corrector.update(tracked, plane(), time_ns).pose[Joint::index_tip].position.y();
+      }
+    }
+    return height_m;
+  };
+  const double once_m = drawn_height_m(1, 0);
+  EXPECT_NEAR(drawn_height_m(2, 0), once_m, 0.005);
+  EXPECT_NEAR(drawn_height_m(2, kFrame_ns), once_m, 0.008);
+}
+
 }  // namespace
 }  // namespace nade

@@ -127,14 +127,6 @@ void add_method_options(CLI::App& command, MethodOptions& options) {
                   "depth, then slips (method nade; default 0)")
       ->type_name("MU")
       ->check(CLI::Range(0.0, 2.0));
-  command
-      .add_option_function<double>(
-          "--hand-length",
-          [&options](const double& mm) { options.corrector.hand_length_m = 0.001 * mm; },
-          "of the hand that is drawn, wrist to middle knuckle (default what is tracked, on the "
-          "average so far)")
-      ->type_name("MM")
-      ->check(CLI::Range(30.0, 200.0));
   CLI::Option* const literal = command.add_flag("--paper-literal", options.literal,
                                                 "every open point as the paper's text has it");
   literal->group(kGroup);

@@ -91,17 +91,22 @@ struct SettledFrame {
 /// One for each joint.
 using JointVectors = std::array<Vec3, kJointCount>;
 
-/// How a tracked hand's joints accelerate, and how much of that is new in each frame: tremor, and
+/// How a tracked hand's joints accelerate, and how much of that is new in each sample: tremor, and
 /// the tracker's errors. What the object adds to a restless motion is less to be seen than on a
 /// smooth one. World frame. The means are over about a third of a second of the root mean square
 /// over the joints, and of square roots, so that one sudden turn counts for little.
 struct Unrest {
+  int samples = 0;                ///< of this motion, up to 3: enough for all of it
+  double elapsed_s = 0.0;         ///< since the last
+  JointVectors joints{};          ///< in it, m
   JointVectors velocity{};        ///< m/s
   JointVectors acceleration{};    ///< m/s^2
   double root_mean = 0.0;         ///< of the acceleration, (m/s^2)^1/2
-  double change_root_mean = 0.0;  ///< of its change since the frame before
-  int frames = 0;                 ///< seen of this motion, up to 2: enough for all of it
+  double change_root_mean = 0.0;  ///< of its change since the sample before
 };
+
+/// Each finger's middle and last flexion together, radians; 0 for the thumb.
+using FingerCurls = std::array<double, kDigitCount>;
 
 /// What settle_hand remembers of a hand from frame to frame, and room to work in.
 struct SettleMemory {
@@ -118,10 +123,10 @@ struct SettleMemory {
   Vec3 drawn_lag = Vec3::Zero();     ///< the same, smoothed
   bool slips = false;
   Unrest unrest;
-  double curl_rad = 0.0;  ///< of the tracked fingers when they touched; in the air, now
-  double edge = 0.0;      ///< 1 while the hand goes over one, fading after it
+  FingerCurls curl_at_touch{};  ///< of the tracked hand; in the air, now
+  double edge = 0.0;            ///< 1 while the hand goes over one, fading after it
   HandFreedoms geometric = HandFreedoms::Zero();  ///< stiffness, of the last round's contacts
-  std::array<double, kPulls> pulls{};             ///< shares of the full pull, in the last frame
+  std::array<double, kPulls> pulls{};  ///< times the full pull on a calm hand, in the last frame
   std::vector<PadMemory> pads;
   std::vector<ContactRow> rows;
   /// Of the tracked joints against the object, smoothed, m/s; object frame.
