@@ -185,7 +185,7 @@ void Settling::start() {
     memory_.velocity.fill(Vec3::Zero());
     memory_.height_m = 0.0;
     memory_.edge = 0.0;
-    if (same_surface) break_motion(memory_.unrest);
+    break_motion(memory_.unrest);
   }
   search_.seconds = seconds_;
   search_.pulls_before = memory_.pulls;
