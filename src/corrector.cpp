@@ -110,11 +110,7 @@ HandCorrector::HandCorrector(const CorrectorOptions& options) : options_(options
 
 void HandCorrector::reset() noexcept {
   contact_memory_ = {};
-  for (SettleMemory& memory : settle_memory_) {
-    memory.last.tracked.reset();
-    memory.unrest.samples = 0;
-    memory.unrest.root_mean = memory.unrest.change_root_mean = 0.0;
-  }
+  for (SettleMemory& memory : settle_memory_) forget_hand(memory);
   last_.reset();
   release_start_ns_.reset();
   hand_length_m_ = 0.0;

@@ -116,6 +116,7 @@ class Settling {
   [[nodiscard]] HandPose carried(const HandPose& hand) const;
   void find_motion();
   void start_outside();
+  void find_strengths();
   [[nodiscard]] Vec3 find_normal();
   [[nodiscard]] Correction after(const HandFreedoms& step) const;
   [[nodiscard]] SettleProblem problem_at(const PosedHand& posed, int round) const;
@@ -188,7 +189,6 @@ void Settling::start() {
     break_motion(memory_.unrest);
   }
   search_.seconds = seconds_;
-  search_.pulls_before = memory_.pulls;
   search_.sink_m =
       options_.softness_m * (1.0 - std::exp(-memory_.height_m / options_.softness_depth_m));
   push_ = memory_.push;
@@ -198,11 +198,8 @@ void Settling::start() {
   search_.push = push_;
   normal_ = find_normal();
   search_.frame = surface_frame(normal_, tracked[Joint::palm].rotation);
-  follow_unrest(tracked, since_last_s_, memory_.unrest);
-  if (memory_.push.isZero()) memory_.curl_at_touch = curls_of(model_);
-  search_.strengths = pull_strengths(memory_.unrest, model_, memory_.curl_at_touch, memory_.edge);
-  if (fresh_) search_.pulls_before = search_.strengths;  // no pull has to come first
-  correction_ = after(HandFreedoms::Zero());             // into the range of this frame's pose
+  find_strengths();
+  correction_ = after(HandFreedoms::Zero());  // into the range of this frame's pose
   last_ = correction_;
   last_.palm.shift += follow_lag(seconds_, memory_);
   for (std::size_t i = 0; i < kJointCount; ++i) {
@@ -212,6 +209,16 @@ void Settling::start() {
   search_.before = pose_flesh(carried(memory_.last.drawn), model_.scale);
   search_.braking_mpss = braking_at(motion_m_ / seconds_);
   coasted_ = coasted_joints(memory_.last, memory_.drift, tracked, placement, seconds_);
+}
+
+/// How strongly the object may draw this hand.
+void Settling::find_strengths() {
+  follow_unrest(model_.tracked, since_last_s_, memory_.unrest);
+  const FingerCurls curls = curls_of(model_);
+  if (memory_.push.isZero()) memory_.curl_at_touch = curls;
+  search_.strengths = pull_strengths(memory_.unrest, curls, memory_.curl_at_touch, memory_.edge);
+  // On a hand found anew no pull has to come first.
+  search_.pulls_before = fresh_ ? search_.strengths : memory_.pulls;
 }
 
 /// A hand that was lost comes back on the side of the object that its palm is nearest to.
@@ -404,6 +411,11 @@ SettleMemory settle_memory(const HandFlesh& flesh) {
   memory.drift.fill(Vec3::Zero());
   memory.unrest = no_unrest();
   return memory;
+}
+
+void forget_hand(SettleMemory& memory) noexcept {
+  memory.last.tracked.reset();
+  memory.unrest = no_unrest();
 }
 
 SettledHand settle_hand(const HandPose& tracked, const HandFlesh& flesh, double scale,

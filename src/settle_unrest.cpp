@@ -27,8 +27,8 @@ constexpr double kCurled_rad = 0.5;
 /// differences against second ones.
 constexpr double kWhiteChange = 20.0 / 6.0;
 
-/// 0 for a hand that moves smoothly, to 1 for one that trembles or whose tracker errs. Of white
-/// errors the acceleration's change is `kWhiteChange` of it, of a smooth motion next to nothing.
+/// 0 for a hand that moves smoothly, to 1 for one that trembles or whose tracker errs: unrest is
+/// j^3/a^2, docs/method.md.
 double unrest_share(const Unrest& unrest) {
   const double acceleration = unrest.root_mean * unrest.root_mean;
   if (!(acceleration > kStill_mpss)) return 0.0;
@@ -91,15 +91,14 @@ FingerCurls curls_of(const HandModel& model) noexcept {
   FingerCurls curls{};
   for (std::size_t d = 0; d < kDigitCount; ++d) {
     if (digit_at(d) == Digit::thumb) continue;
-    curls[d] = model.chains[d].angles[1].flexion + model.chains[d].angles[2].flexion;
+    curls[d] = curl_of(model.chains[d].angles);
   }
   return curls;
 }
 
-PullStrengths pull_strengths(const Unrest& unrest, const HandModel& model,
+PullStrengths pull_strengths(const Unrest& unrest, const FingerCurls& curls,
                              const FingerCurls& at_touch, double edge) noexcept {
   const double share = unrest_share(unrest) * (1.0 - edge);
-  const FingerCurls curls = curls_of(model);
   PullStrengths strengths;
   strengths[kNearestSkin] = std::pow(kRestlessPull, share);
   double most_curled = 1.0;

@@ -18,12 +18,12 @@ void follow_unrest(const HandPose& hand, double seconds, Unrest& unrest) noexcep
 /// After a jump: what is known of the hand's unrest stays, its motion starts anew.
 void break_motion(Unrest& unrest) noexcept;
 
-/// For the tracked hand of `model`. `at_touch` is how its fingers were curled when it touched;
-/// `edge` is `SettleMemory::edge`.
-[[nodiscard]] PullStrengths pull_strengths(const Unrest& unrest, const HandModel& model,
-                                           const FingerCurls& at_touch, double edge) noexcept;
-
 /// How the tracked fingers are curled.
 [[nodiscard]] FingerCurls curls_of(const HandModel& model) noexcept;
+
+/// `curls` and `at_touch` are how the tracked fingers are curled, and were when the hand touched;
+/// `edge` is `SettleMemory::edge`.
+[[nodiscard]] PullStrengths pull_strengths(const Unrest& unrest, const FingerCurls& curls,
+                                           const FingerCurls& at_touch, double edge) noexcept;
 
 }  // namespace nade

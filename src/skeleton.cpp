@@ -158,6 +158,16 @@ DigitAngles turned_whole(const DigitChain& chain, const Quat& turn_world) noexce
   return angles;
 }
 
+double curl_of(const DigitAngles& finger) noexcept { return finger[1].flexion + finger[2].flexion; }
+
+double curl_of(const HandAngles& hand) noexcept {
+  double sum = 0.0;
+  for (const Digit digit : {Digit::index, Digit::middle, Digit::ring, Digit::little}) {
+    sum += curl_of(hand[index_of(digit)]);
+  }
+  return sum / 4.0;
+}
+
 DigitFreedoms freedoms_of(const DigitAngles& angles) noexcept {
   return {angles[0].abduction, angles[0].flexion, angles[1].flexion, angles[2].flexion};
 }

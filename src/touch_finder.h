@@ -40,9 +40,9 @@ struct TouchSearch {
   PosedFlesh tracked;
   /// The last frame's drawn hand, carried along with the object; none for a hand found anew.
   std::optional<PosedFlesh> before;
-  double scale = 1.0;                         ///< of the tracked hand over the flesh
-  double seconds = 0.0;                       ///< since the last frame
-  std::array<double, kPulls> pulls_before{};  ///< `SettleMemory::pulls` of the last frame
+  double scale = 1.0;            ///< of the tracked hand over the flesh
+  double seconds = 0.0;          ///< since the last frame
+  PullStrengths pulls_before{};  ///< `SettleMemory::pulls` of the last frame
   PullStrengths strengths{};
   JointVectors velocity{};                              ///< of the tracked joints, world, smoothed
   double braking_mpss = 0.0;                            ///< `braking_at` the tracked hand's speed

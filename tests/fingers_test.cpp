@@ -135,8 +135,8 @@ TEST(Fingers, TheTurnedRayKeepsTheFingerFromBuckling) {
     const LaidFingers laid = lay_fingers(hand, seated.hand, object, {most_turn}, contacts);
     const DigitChain before = measure_chain(hand, Digit::middle);
     const DigitChain after = measure_chain(laid.hand, Digit::middle);
-    const double curl_before = before.angles[1].flexion + before.angles[2].flexion;
-    const double curl_after = after.angles[1].flexion + after.angles[2].flexion;
+    const double curl_before = curl_of(before.angles);
+    const double curl_after = curl_of(after.angles);
     if (most_turn > 0.0) {
       EXPECT_GT(laid.ray_turn_rad[index_of(Digit::middle)], 0.0);
       EXPECT_NEAR(curl_after, curl_before, rad(2.0));

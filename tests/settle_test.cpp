@@ -30,14 +30,6 @@ using test::rad;
 using test::same_bits;
 using test::settling;
 
-/// Flexion of PIP and DIP, the mean of the four fingers.
-double curl_of(const HandPose& hand) {
-  const HandAngles angles = measure_angles(hand);
-  double sum = 0.0;
-  for (std::size_t d = 1; d < kDigitCount; ++d) sum += angles[d][1].flexion + angles[d][2].flexion;
-  return sum / 4.0;
-}
-
 TEST(Settle, AnUntouchedHandComesBackBitEqual) {
   HandCorrector corrector(settling());
   for (int i = 0; i < 5; ++i) {
@@ -87,7 +79,7 @@ TEST(Settle, FingersThatArePushedUpKeepTheirCurl) {
   for (int i = 0; i <= 90; ++i, time_ns += kFrame_ns) {
     corrector.update(on_the_way_down(i, 90, 0.02), plane(), time_ns);
   }
-  const double relaxed = curl_of(generic_size_hand());
+  const double relaxed = curl_of(measure_angles(generic_size_hand()));
   HandPose drawn;
   for (int i = 0; i <= 60; ++i, time_ns += kFrame_ns) {
     for (std::size_t d = 1; d < kDigitCount; ++d) {
@@ -98,7 +90,7 @@ TEST(Settle, FingersThatArePushedUpKeepTheirCurl) {
     drawn = corrector.update(pressed_hand(0.02, 0.0, Vec3::Zero(), hand), plane(), time_ns).pose;
     ASSERT_GT(lowest_skin(drawn, plane()), -0.0005) << i;
   }
-  EXPECT_GT(curl_of(drawn) - relaxed, 0.8 * rad(48.0));
+  EXPECT_GT(curl_of(measure_angles(drawn)) - relaxed, 0.8 * rad(48.0));
 }
 
 /// A mesh in millimetres is drawn at a thousandth of its size.

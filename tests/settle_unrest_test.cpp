@@ -16,7 +16,6 @@ namespace {
 
 using test::gripping_hand;
 using test::kFrame_ns;
-using test::placed_hand;
 using test::plane;
 using test::pressed_hand;
 using test::settling;
@@ -43,16 +42,6 @@ HandPose drawn_at_rest(const HandPose& tracked, bool trembles) {
   return drawn;
 }
 
-/// Middle and last flexion, the fingers' mean.
-double curl_rad(const HandPose& hand) {
-  const HandAngles angles = measure_angles(hand);
-  double sum = 0.0;
-  for (const Digit digit : {Digit::index, Digit::middle, Digit::ring, Digit::little}) {
-    sum += angles[index_of(digit)][1].flexion + angles[index_of(digit)][2].flexion;
-  }
-  return sum / 4.0;
-}
-
 /// On its heel, 20 mm deep, the fingers' tips up.
 TEST(SettleUnrest, ARestlessHandLiesNearerToTheSurface) {
   const HandPose tracked = pressed_hand(0.02, 0.6);
@@ -66,8 +55,8 @@ TEST(SettleUnrest, ARestlessHandLiesNearerToTheSurface) {
 /// Drawn as strongly as an open hand, a fist on a table was opened by 48 degrees.
 TEST(SettleUnrest, AFistStaysAFist) {
   const HandPose tracked = pressed_hand(0.02, 0.0, Vec3::Zero(), gripping_hand());
-  const double calm_rad = curl_rad(drawn_at_rest(tracked, false));
-  EXPECT_NEAR(curl_rad(drawn_at_rest(tracked, true)), calm_rad, 0.05);
+  const double calm_rad = curl_of(measure_angles(drawn_at_rest(tracked, false)));
+  EXPECT_NEAR(curl_of(measure_angles(drawn_at_rest(tracked, true))), calm_rad, 0.05);
 }
 
 /// A finger that holds the palm up was opened by it.
@@ -78,8 +67,7 @@ TEST(SettleUnrest, OneCurledFingerStaysCurled) {
   }
   const HandPose hand = test::generic_size_hand(Handedness::right, angles);
   const HandPose drawn = drawn_at_rest(pressed_hand(0.02, 0.0, Vec3::Zero(), hand), true);
-  const DigitAngles bent = measure_angles(drawn)[index_of(Digit::index)];
-  EXPECT_GT(bent[1].flexion + bent[2].flexion, 2.0);
+  EXPECT_GT(curl_of(measure_angles(drawn)[index_of(Digit::index)]), 2.0);
 }
 
 /// Frames that are all the same for minutes, as of a tracker that is stuck: what was smoothed over

@@ -249,13 +249,7 @@ TEST_F(Synth, CurlBendsTheFingersBy45Degrees) {
   SynthOptions options;
   options.stroke = Stroke::curl;
   const Synthesised made = make(*find("plane"), options);
-  const auto curl = [](const HandPose& hand) {
-    double sum = 0.0;
-    const HandAngles angles = measure_angles(hand);
-    for (std::size_t d = 1; d < kDigitCount; ++d)
-      sum += angles[d][1].flexion + angles[d][2].flexion;
-    return sum / 4.0;
-  };
+  const auto curl = [](const HandPose& hand) { return curl_of(measure_angles(hand)); };
   const double open = curl(made.hand(0));
   double most = open;
   for (std::size_t i = 0; i < made.frames.size(); ++i) most = std::max(most, curl(made.hand(i)));

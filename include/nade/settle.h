@@ -139,6 +139,9 @@ struct SettleMemory {
 /// A memory with room for a hand's pads; settle_hand allocates nothing then.
 [[nodiscard]] SettleMemory settle_memory(const HandFlesh& flesh);
 
+/// The next frame's hand is another's: nothing is known of it.
+void forget_hand(SettleMemory& memory) noexcept;
+
 /// The hand settled on the surface.
 struct SettledHand {
   HandPose hand;  ///< bit for bit the tracked one where nothing is to be corrected

@@ -63,6 +63,11 @@ struct DigitChain {
 /// All hinge angles of a hand.
 [[nodiscard]] HandAngles measure_angles(const HandPose& hand) noexcept;
 
+/// How a finger is curled: its middle and last flexion together, radians.
+[[nodiscard]] double curl_of(const DigitAngles& finger) noexcept;
+/// The mean of the four fingers.
+[[nodiscard]] double curl_of(const HandAngles& hand) noexcept;
+
 /// A digit's moving joints, from the first hinge to the tip.
 using DigitPose = std::array<Pose, kHingeCount + 1>;
 

@@ -26,14 +26,6 @@ double excess(double value, double low, double high) {
   return std::max({0.0, value - high, low - value});
 }
 
-double curl_of(const HandAngles& angles) {
-  double sum = 0.0;
-  for (const Digit digit : {Digit::index, Digit::middle, Digit::ring, Digit::little}) {
-    sum += angles[index_of(digit)][1].flexion + angles[index_of(digit)][2].flexion;
-  }
-  return sum / 4.0;
-}
-
 }  // namespace
 
 BendMeter::FrameResult BendMeter::add(const HandPose& tracked, const HandPose& corrected,
