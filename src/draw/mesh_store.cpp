@@ -126,6 +126,9 @@ MeshId MeshStore::add(const DrawnMesh& drawn) {
   mesh.index_count = static_cast<GLsizei>(3 * triangles.size());
   glVertexArrayElementBuffer(mesh.layout.get(), mesh.indices.get());
   set_colors(id, drawn.colors);
+  // NVIDIA's driver 580 may draw these contents after set_shape() has replaced them, if it follows
+  // at once: let them arrive.
+  glFinish();
   return id;
 }
 
