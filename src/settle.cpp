@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "posed_hand.h"
+#include "settle_forces.h"
 #include "settle_pace.h"
 #include "settle_slide.h"
 #include "settle_solver.h"
@@ -103,8 +104,11 @@ class Settling {
         step = least_cost_step(problem, step);
         next = pose_hand(model_, after(step));
       }
+      const ContactForces forces = contact_forces(posed, memory_.rows, step, search_.frame);
+      memory_.geometric = forces.geometric;
+      touches_ = forces.touches;
+      find_push(forces.push);
       correction_ = after(step);
-      find_forces(posed, step);
       posed = next;
       if (reach_of(step) < (fresh_ ? kFirstSettled_m : kSettled_m)) break;
     }
@@ -120,7 +124,6 @@ class Settling {
   [[nodiscard]] Vec3 find_normal();
   [[nodiscard]] Correction after(const HandFreedoms& step) const;
   [[nodiscard]] SettleProblem problem_at(const PosedHand& posed, int round) const;
-  void find_forces(const PosedHand& posed, const HandFreedoms& step);
   [[nodiscard]] bool is_pressed() const;
   void find_push(const Vec3& force);
   void remember_contact();
@@ -296,38 +299,6 @@ SettleProblem Settling::problem_at(const PosedHand& posed, int round) const {
   problem.rate.low = -rate - changed;
   problem.rate.high = rate - changed;
   return problem;
-}
-
-/// What the rows' forces are after a step: the object's push, and what they add to the stiffness
-/// where the levers that they act on change (Tournier, Nesme, Gilles, Faure. Stable constrained
-/// dynamics. 2015). Without it planes send some bends from side to side, round after round.
-void Settling::find_forces(const PosedHand& posed, const HandFreedoms& step) {
-  Vec3 push = Vec3::Zero();
-  Eigen::Matrix<double, 6, 1> wrist = Eigen::Matrix<double, 6, 1>::Zero();
-  std::array<Eigen::Matrix4d, kDigitCount> bend;
-  bend.fill(Eigen::Matrix4d::Zero());
-  touches_ = false;
-  for (const ContactRow& row : memory_.rows) {
-    if (row.kind == RowKind::hold_back) continue;
-    const double gap_m = gap_after(row, step);
-    if (const double force = force_at(row, gap_m); force != 0.0) {
-      const LeverGrowth growth = lever_growth(posed, row, search_.frame);
-      wrist -= force * growth.wrist;
-      if (row.digit) bend[index_of(*row.digit)] -= force * growth.bend;
-    }
-    if (gap_m > row.push_reach_m()) continue;
-    touches_ = true;
-    if (row.kind == RowKind::draw_near) continue;
-    push += (row.push_reach_m() - gap_m) * (search_.frame * row.wrist.head<3>());
-  }
-  // By rows, so that it is no less than the matrix where that is above 0 (Gershgorin).
-  memory_.geometric.head<6>() = wrist.cwiseMax(0.0);
-  for (std::size_t d = 0; d < kDigitCount; ++d) {
-    const DigitFreedoms own = bend[d].diagonal();
-    memory_.geometric.segment<4>(first_freedom(d)) =
-        (bend[d].cwiseAbs().rowwise().sum() + own - own.cwiseAbs()).cwiseMax(0.0);
-  }
-  find_push(push);
 }
 
 /// Whether the person is in the object near where the drawn hand hovers for a moment.
