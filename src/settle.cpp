@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "posed_hand.h"
+#include "ramps.h"
 #include "settle_forces.h"
 #include "settle_pace.h"
 #include "settle_slide.h"
@@ -163,7 +164,7 @@ void Settling::find_motion() {
   const HandPose& now = model_.tracked;
   const HandPose along = carried(*last.tracked);
   motion_m_ = std::max(largest_motion(*last.tracked, now), largest_motion(along, now));
-  const double follow = memory_.fresh ? 1.0 : 1.0 - std::exp(-seconds_ / kVelocityTime_s);
+  const double follow = memory_.fresh ? 1.0 : followed(seconds_, kVelocityTime_s);
   follow_velocity(along, now, object_.placement().pose.rotation, seconds_, follow,
                   memory_.velocity);
 }
@@ -192,8 +193,7 @@ void Settling::start() {
     break_motion(memory_.unrest);
   }
   search_.seconds = seconds_;
-  search_.sink_m =
-      options_.softness_m * (1.0 - std::exp(-memory_.height_m / options_.softness_depth_m));
+  search_.sink_m = options_.softness_m * followed(memory_.height_m, options_.softness_depth_m);
   push_ = memory_.push;
   correction_ = memory_.last.correction;
   search_.row_reach_m = fresh_ ? kDeepest_m : kRowReach_m + kRowReachOfMotion * motion_m_;
@@ -317,7 +317,7 @@ void Settling::find_push(const Vec3& force) {
   }
   push_ = force / strength;
   if (memory_.push.isZero()) return;
-  const double share = 1.0 - std::exp(-seconds_ / kPushTime_s);
+  const double share = followed(seconds_, kPushTime_s);
   push_ = (memory_.push + share * (push_ - memory_.push)).normalized();
 }
 

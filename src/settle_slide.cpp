@@ -1,7 +1,8 @@
 #include "settle_slide.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "ramps.h"
 
 namespace nade {
 namespace {
@@ -46,7 +47,7 @@ void forget_slide(SettleMemory& memory) noexcept {
 }
 
 Vec3 follow_lag(double seconds, SettleMemory& memory) noexcept {
-  const double share = 1.0 - std::exp(-seconds / kLagTime_s);
+  const double share = followed(seconds, kLagTime_s);
   const Vec3 change = share * (memory.lag - memory.drawn_lag);
   memory.drawn_lag += change;
   return change;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "ramps.h"
+
 namespace nade {
 namespace {
 
@@ -78,7 +80,7 @@ void follow_unrest(const HandPose& hand, double seconds, Unrest& unrest) noexcep
     }
     unrest.joints[i] = joint;
   }
-  const double share = 1.0 - std::exp(-elapsed_s / kUnrestTime_s);
+  const double share = followed(elapsed_s, kUnrestTime_s);
   const auto follow = [share](double sum, double& root_mean) {
     root_mean += share * (std::pow(sum / kJointCount, 0.25) - root_mean);
   };

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "ramps.h"
+
 namespace nade {
 namespace {
 
@@ -68,7 +70,7 @@ PadPlane plane_at(const SurfacePoint& nearest, const Vec3& middle) {
 /// Lets the normal follow from where it was at the last look; across a thin sheet it turns at once.
 void turn_slowly(const PadPlane& before, double way_m, PadPlane& now) {
   if (before.normal.dot(now.normal) <= 0.0) return;
-  const double share = 1.0 - std::exp(-way_m / kTurningWay_m);
+  const double share = followed(way_m, kTurningWay_m);
   now.normal = (before.normal + share * (now.normal - before.normal)).normalized();
 }
 
@@ -233,7 +235,7 @@ double pull_strength(const TouchSearch& search, const PatchTouch& patch, const P
                           smoothstep(growth.start_m, growth.full_m, patch.depth_m) *
                           smoothstep(-kPullReach_m, kPullFade_m - kPullReach_m, -patch.gap_m);
   if (strength <= before) return strength;
-  return strength + std::exp(-search.seconds / kPullTime_s) * (before - strength);
+  return before + followed(search.seconds, kPullTime_s) * (strength - before);
 }
 
 void add_pulls(const TouchSearch& search, const PosedHand& posed, const PatchTouches& patches,
@@ -256,11 +258,6 @@ void add_pulls(const TouchSearch& search, const PosedHand& posed, const PatchTou
 }
 
 }  // namespace
-
-double smoothstep(double from, double to, double x) noexcept {
-  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
 
 double braking_at(double speed_mps) noexcept {
   const double cushioned_mpss = speed_mps * speed_mps / (2.0 * cushion_thickness(speed_mps));

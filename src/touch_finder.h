@@ -60,7 +60,4 @@ struct TouchSearch {
 [[nodiscard]] PatchTouches find_touches(const TouchSearch& search, const PosedHand& posed,
                                         SettleMemory& memory) noexcept;
 
-/// 0 below `from`, 1 above `to`, smooth between.
-[[nodiscard]] double smoothstep(double from, double to, double x) noexcept;
-
 }  // namespace nade

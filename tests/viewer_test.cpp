@@ -243,6 +243,16 @@ TEST_F(RecordedTest, ADroppedFileIsWhatItsContentSays) {
   EXPECT_NE(session.clip(), nullptr);
 }
 
+TEST_F(RecordedTest, ADroppedMeshThatIsBrokenSaysWhatIsWrongWithTheMesh) {
+  std::ofstream(path("BROKEN.OBJ")) << "v 0 0 0\n";
+  Session session(session_setup());
+  ASSERT_TRUE(session.show_object("plane").ok());
+  const Status opened = session.open_any(path("BROKEN.OBJ"));
+  ASSERT_FALSE(opened.ok());
+  EXPECT_NE(opened.error().message.find("expected a mesh"), std::string::npos)
+      << opened.error().message;
+}
+
 TEST_F(RecordedTest, MouseHandIsBackWhenTheRecordingIsPutAway) {
   make_stroke("a.jsonl", "plane");
   Session session(session_setup());

@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <filesystem>
 #include <nlohmann/json.hpp>
-#include <string_view>
 #include <utility>
 
 #include "nade/eval/press.h"
@@ -26,14 +24,6 @@ constexpr std::int64_t kLeadIn_ns = 1'500'000'000;
 /// So many frames of a recording are caught up with in one frame of the window.
 constexpr std::size_t kCatchUpMax = 240;
 constexpr double kPressAtFirst_m = 0.02;
-
-/// Of the two reasons why a file is neither, this tells the one that its owner looks for.
-bool is_mesh_name(const std::string& path) {
-  const std::string ending = std::filesystem::path(path).extension().string();
-  constexpr std::array<std::string_view, 6> kEndings{".glb", ".gltf", ".obj",
-                                                     ".stl", ".ply",  ".off"};
-  return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
-}
 
 }  // namespace
 
@@ -85,7 +75,8 @@ Status Session::open_any(const std::string& path) {
   if (as_recording.ok()) return as_recording;
   const Status as_mesh = show_object(path);
   if (as_mesh.ok()) return as_mesh;
-  return is_mesh_name(path) ? as_mesh : as_recording;
+  // Of the two reasons why it is neither, the one that its owner looks for.
+  return has_mesh_ending(path) ? as_mesh : as_recording;
 }
 
 void Session::close_clip() {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <numbers>
 
@@ -269,9 +268,7 @@ DressedObject dress_soup(const TriangleSoup& soup) {
 
 /// A mesh file in its own materials, or, where its format has none, in one colour.
 Result<DressedObject> dress_file(const std::string& path, const LoadedObject& object) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string ending = ending_of(path);
   if (ending == ".glb" || ending == ".gltf") return load_gltf_meshes(path);
   if (ending == ".obj" || ending == ".ply") return load_plain_meshes(path);
   return dress_soup(object.soup.value_or(TriangleSoup{}));

@@ -28,12 +28,6 @@ Error refuse(ErrorCode code, const std::string& path, std::string_view what) {
   return Error{code, fmt::format("{}: {}", path, what)};
 }
 
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 /// The library's message as one line without a full stop.
 std::string one_line(std::string_view text) {
   std::string line;
@@ -51,8 +45,7 @@ std::string one_line(std::string_view text) {
 
 /// What can be told before the file is parsed.
 std::optional<Error> refuse_early(const std::string& path) {
-  const std::string ending = lower_case(fs::path(path).extension().string());
-  if (std::find(kEndings.begin(), kEndings.end(), ending) == kEndings.end()) {
+  if (!has_mesh_ending(path)) {
     return refuse(ErrorCode::bad_format, path,
                   "expected a mesh file ending in .glb .gltf .obj .stl .ply or .off");
   }
@@ -140,7 +133,7 @@ Result<TriangleSoup> read_plain(const std::string& path, std::string_view ending
 }
 
 Result<MeshFile> parse(const std::string& path) {
-  const std::string ending = lower_case(fs::path(path).extension().string());
+  const std::string ending = ending_of(path);
   if (ending == ".glb" || ending == ".gltf") return io::read_gltf(path);
   Result<TriangleSoup> soup = ending == ".obj" ? read_obj(path) : read_plain(path, ending);
   if (!soup.ok()) return soup.error();
@@ -161,6 +154,17 @@ Result<MeshFile> check(MeshFile file, const std::string& path) {
 }
 
 }  // namespace
+
+std::string ending_of(const std::string& path) {
+  std::string ending = fs::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+bool has_mesh_ending(const std::string& path) {
+  return std::find(kEndings.begin(), kEndings.end(), ending_of(path)) != kEndings.end();
+}
 
 Result<MeshFile> load_mesh(const std::string& path) {
   if (std::optional<Error> error = refuse_early(path)) return *error;

@@ -21,6 +21,12 @@ struct MeshFile {
   std::vector<MeshPlace> places;
 };
 
+/// A file name's ending in lower case, ".glb" for "Dog.GLB"; empty where there is none.
+[[nodiscard]] std::string ending_of(const std::string& path);
+
+/// Whether a file's name says that it holds a mesh of a kind that `load_mesh` reads.
+[[nodiscard]] bool has_mesh_ending(const std::string& path);
+
 /// Reads .glb .gltf .obj .stl .ply .off, recognised by the name's ending; scene transforms are
 /// applied. Positions are taken as metres. The error names the file and what is wrong with it;
 /// only an .obj file that was cut off between two lines cannot be told from a whole one.
