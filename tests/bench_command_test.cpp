@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -13,6 +12,7 @@
 namespace {
 
 using nade::test::CliTest;
+using nade::test::lines_of;
 using nade::test::Ran;
 using nade::test::read_file;
 
@@ -23,9 +23,8 @@ const std::string kMethods = "--method none,paper,nade,wrist-offset";
 
 /// A CSV file without its last two columns, which are times.
 std::string without_times(const std::string& csv) {
-  std::istringstream in(csv);
   std::string text;
-  for (std::string line; std::getline(in, line);) {
+  for (std::string line : lines_of(csv)) {
     for (int i = 0; i < 2; ++i) line.resize(line.rfind(','));
     text += line + '\n';
   }

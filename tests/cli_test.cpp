@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -20,21 +19,12 @@
 namespace {
 
 using nade::test::CliTest;
+using nade::test::lines_of;
 using nade::test::Ran;
 using nade::test::read_file;
 using nade::test::write_file;
 
 const std::vector<std::string> kCommands{"correct", "measure", "synth", "convert", "inspect"};
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::size_t from = 0;
-  for (std::size_t to = text.find('\n'); to != std::string::npos; to = text.find('\n', from)) {
-    lines.push_back(text.substr(from, to - from));
-    from = to + 1;
-  }
-  return lines;
-}
 
 class Cli : public CliTest {};
 
@@ -52,98 +42,6 @@ TEST_F(Cli, VersionNamesTheProgram) {
   const Ran ran = nade("--version");
   EXPECT_EQ(ran.status, 0);
   EXPECT_EQ(ran.out.rfind("nade ", 0), 0u) << ran.out;
-}
-
-TEST_F(Cli, MisuseIsTwo) {
-  make_stroke("in.jsonl");
-  for (const std::string& arguments :
-       std::vector<std::string>{"", "frobnicate", "inspect", "correct in.jsonl --object plane",
-                                "correct in.jsonl -o out.jsonl", "inspect in.jsonl --frobnicate",
-                                "correct in.jsonl -o out.jsonl --object plane --method magic",
-                                "correct in.jsonl -o out.jsonl --object plane --scale 0",
-                                "correct in.jsonl -o out.jsonl --object plane --scale nan",
-                                "correct in.jsonl -o out.jsonl --object plane --at 1,2",
-                                "correct in.jsonl -o out.jsonl --object plane --turn 0,0,0,0",
-                                "correct in.jsonl -o out.jsonl --object plane --press -1",
-                                "correct in.jsonl -o out.jsonl --object sphere:-1",
-                                "correct in.jsonl -o out.jsonl --object teapot",
-                                "correct in.jsonl -o out.jsonl --object plane --friction 3",
-                                "synth -o out.jsonl --object plane --stroke loop",
-                                "synth -o out.jsonl --object plane --rate 0",
-                                "synth -o out.jsonl --object plane --duration -1"}) {
-    const Ran ran = nade(arguments);
-    EXPECT_EQ(ran.status, 2) << "nade " << arguments << "\n" << ran.err;
-    EXPECT_NE(ran.err, "") << "nade " << arguments;
-    EXPECT_EQ(ran.out, "") << "nade " << arguments;
-  }
-  EXPECT_EQ(files(), std::vector<std::string>{"in.jsonl"});
-}
-
-TEST_F(Cli, MissingInputIsNamed) {
-  make_stroke("in.jsonl");
-  expect_failure(nade("correct nowhere.jsonl -o out.jsonl --object plane"), "nowhere.jsonl");
-  expect_failure(nade("convert nowhere.jsonl -o out.jsonl"), "nowhere.jsonl");
-  expect_failure(nade("inspect nowhere.jsonl"), "nowhere.jsonl");
-  expect_failure(nade("measure nowhere.jsonl in.jsonl --object plane"), "nowhere.jsonl");
-  expect_failure(nade("measure in.jsonl nowhere.jsonl --object plane"), "nowhere.jsonl");
-  expect_failure(nade("correct in.jsonl -o out.jsonl --object nowhere.glb"), "nowhere.glb");
-  expect_failure(nade("inspect ."), ".");
-  EXPECT_EQ(files(), std::vector<std::string>{"in.jsonl"});
-}
-
-TEST_F(Cli, UnreadableContentIsNamed) {
-  write_file(path("empty.jsonl"), "");
-  write_file(path("words.jsonl"), "once upon a time\n");
-  write_file(path("other.jsonl"), R"({"format":"something-else","version":1})"
-                                  "\n");
-  write_file(path("future.jsonl"), R"({"format":"nade-recording","version":99})"
-                                   "\n");
-  write_file(path("broken.jsonl.gz"), "\x1f\x8b\x08 and then nothing of the kind");
-  for (const char* file :
-       {"empty.jsonl", "words.jsonl", "other.jsonl", "future.jsonl", "broken.jsonl.gz"}) {
-    const std::string name = file;
-    expect_failure(nade("inspect " + name), name);
-    expect_failure(nade("correct " + name + " -o out.jsonl --object plane"), name);
-  }
-  EXPECT_FALSE(std::filesystem::exists(path("out.jsonl")));
-}
-
-/// Frame lines that make a recording unusable, and what its error has to name.
-TEST_F(Cli, BadFrameNamesItsLine) {
-  make_stroke("in.jsonl");
-  const std::vector<std::string> good = lines_of(read_file(path("in.jsonl")));
-  ASSERT_GT(good.size(), 4u);
-  auto frame = nlohmann::json::parse(good[3]);
-  const auto& joints = frame["right"]["joints"];
-  ASSERT_EQ(joints.size(), 26u);
-
-  std::vector<std::string> bad{
-      R"({"t":)", "[]", "nonsense", R"({"t":"now"})", good[2] /* the time before once more */,
-      good[1] /* a time gone by */};
-  auto short_joint = frame;
-  short_joint["right"]["joints"][4].erase(7);
-  bad.push_back(short_joint.dump());
-  auto few_joints = frame;
-  few_joints["right"]["joints"].erase(25);
-  bad.push_back(few_joints.dump());
-  auto words = frame;
-  words["right"]["joints"][4][0] = "left of the middle";
-  bad.push_back(words.dump());
-  std::string infinite = frame.dump();
-  infinite.replace(infinite.find("[["), 2, "[[1e999,");
-  bad.push_back(infinite);
-  std::string nan = frame.dump();
-  nan.replace(nan.find("[["), 2, "[[NaN,");
-  bad.push_back(nan);
-
-  for (const std::string& line : bad) {
-    write_file(path("bad.jsonl"),
-               good[0] + "\n" + good[1] + "\n" + good[2] + "\n" + line + "\n" + good[4] + "\n");
-    const Ran ran = nade("correct bad.jsonl -o out.jsonl --object plane");
-    SCOPED_TRACE(line.substr(0, 60));
-    expect_failure(ran, "bad.jsonl: line 4");
-    EXPECT_FALSE(std::filesystem::exists(path("out.jsonl")));
-  }
 }
 
 TEST_F(Cli, CutOffFileIsReadToItsLastWholeLine) {
@@ -166,39 +64,6 @@ TEST_F(Cli, CutOffGzipIsReadAsFarAsItGoes) {
   EXPECT_EQ(ran.status, 0) << ran.err;
   EXPECT_NE(ran.err.find("cut.jsonl.gz"), std::string::npos) << ran.err;
   EXPECT_GT(lines_of(read_file(path("out.jsonl"))).size(), 1u);
-}
-
-TEST_F(Cli, BadMeshIsNamed) {
-  make_stroke("in.jsonl");
-  write_file(path("empty.obj"), "");
-  write_file(path("nan.obj"), "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  write_file(path("flat.obj"), "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
-  write_file(path("range.off"), "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n");
-  write_file(path("words.glb"), "this is no mesh");
-  write_file(path("cut.stl"), "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0");
-  write_file(path("words.ply"), "ply\nformat ascii 1.0\nnonsense\n");
-  for (const char* file :
-       {"empty.obj", "nan.obj", "flat.obj", "range.off", "words.glb", "cut.stl", "words.ply"}) {
-    SCOPED_TRACE(file);
-    expect_failure(nade(std::string("correct in.jsonl -o out.jsonl --object ") + file), file);
-  }
-  EXPECT_FALSE(std::filesystem::exists(path("out.jsonl")));
-}
-
-TEST_F(Cli, UnknownJointNameIsNamed) {
-  std::string text = read_file(NADE_TEST_DATA_DIR "/webxr_actions.json");
-  const std::string known = "\"ring-finger-tip\"";
-  const std::size_t at = text.find(known);
-  ASSERT_NE(at, std::string::npos);
-  text.replace(at, known.size(), "\"sixth-finger-tip\"");
-  write_file(path("six.json"), text);
-  for (const char* command : {"convert six.json -o out.jsonl", "inspect six.json",
-                              "correct six.json -o out.jsonl --object plane"}) {
-    const Ran ran = nade(command);
-    expect_failure(ran, "six.json");
-    expect_failure(ran, "sixth-finger-tip");
-  }
-  EXPECT_EQ(files(), std::vector<std::string>{"six.json"});
 }
 
 /// As a tracker may give a hand it has lost: one finger, or all of it, in one place.
@@ -231,17 +96,6 @@ TEST_F(Cli, BonesWithoutLengthGiveFiniteHands) {
     EXPECT_EQ(nade("measure point.jsonl out.jsonl --object sphere").status, 0);
     EXPECT_EQ(nade("inspect out.jsonl").status, 0);
   }
-}
-
-TEST_F(Cli, PressThatCannotBeNamesTheRecording) {
-  make_stroke("in.jsonl");
-  write_file(path("bare.jsonl"), lines_of(read_file(path("in.jsonl")))[0] + "\n");
-  const std::string press = " -o out.jsonl --press 0.1 --object ";
-  expect_failure(nade("correct in.jsonl" + press + "sphere:0.01"), "in.jsonl: --press 0.1");
-  expect_failure(nade("correct bare.jsonl" + press + "plane"), "bare.jsonl: --press 0.1");
-  expect_failure(shell("\"$NADE\" correct - " + press + "plane <bare.jsonl"),
-                 "standard input: --press 0.1");
-  EXPECT_EQ(files(), (std::vector<std::string>{"bare.jsonl", "in.jsonl"}));
 }
 
 TEST_F(Cli, AKilledProgramLeavesNothing) {
@@ -305,42 +159,6 @@ TEST_F(Cli, AMillionTrianglesAreAnObjectLikeAnother) {
   }
 }
 #endif
-
-TEST_F(Cli, UnwritableOutputIsNamed) {
-  make_stroke("in.jsonl");
-  write_file(path("file"), "");
-  std::filesystem::create_directory(path("folder"));
-  for (const char* out : {"nowhere/out.jsonl", "file/out.jsonl", "folder"}) {
-    SCOPED_TRACE(out);
-    expect_failure(nade(std::string("correct in.jsonl --object plane -o ") + out), out);
-    expect_failure(nade(std::string("convert in.jsonl -o ") + out), out);
-    expect_failure(nade(std::string("synth --object plane --duration 0.5 -o ") + out), out);
-  }
-  EXPECT_EQ(files(), (std::vector<std::string>{"file", "folder", "in.jsonl"}));
-  EXPECT_TRUE(std::filesystem::is_empty(path("folder")));
-}
-
-TEST_F(Cli, FullDiskIsAnError) {
-  make_stroke("in.jsonl");
-  for (const char* out : {"-o /dev/full", "-o - >/dev/full"}) {
-    SCOPED_TRACE(out);
-    EXPECT_EQ(nade(std::string("convert in.jsonl ") + out).status, 1);
-    EXPECT_EQ(nade(std::string("correct in.jsonl --object plane ") + out).status, 1);
-    EXPECT_EQ(nade(std::string("synth --object plane --duration 0.5 ") + out).status, 1);
-  }
-  expect_failure(nade("convert in.jsonl -o /dev/full"), "/dev/full");
-  expect_failure(nade("measure in.jsonl in.jsonl --object plane --json /dev/full"), "/dev/full");
-  EXPECT_EQ(nade("inspect in.jsonl >/dev/full").status, 1);
-}
-
-TEST_F(Cli, FailureKeepsWhatStoodThere) {
-  make_stroke("in.jsonl");
-  write_file(path("bad.jsonl"), read_file(path("in.jsonl")) + "nonsense\n{}\n");
-  write_file(path("out.jsonl"), "precious");
-  expect_failure(nade("correct bad.jsonl -o out.jsonl --object plane"), "bad.jsonl");
-  EXPECT_EQ(read_file(path("out.jsonl")), "precious");
-  EXPECT_EQ(files(), (std::vector<std::string>{"bad.jsonl", "in.jsonl", "out.jsonl"}));
-}
 
 TEST_F(Cli, PipesCarryNothingButTheRecording) {
   const Ran ran = shell(

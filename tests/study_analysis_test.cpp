@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -20,18 +19,12 @@ namespace nade::study {
 namespace {
 
 using Json = nlohmann::json;
+using test::lines_of;
 
 /// SIMULATED answers of 15 invented people; tests/data/simulated_study.R makes them, and what R
 /// says about them.
 constexpr const char* kStudy = NADE_TEST_DATA_DIR "/simulated_study.csv";
 constexpr const char* kSaidByR = NADE_TEST_DATA_DIR "/simulated_study_r.json";
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::istringstream stream(text);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
 
 bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -13,14 +12,8 @@
 namespace nade::study {
 namespace {
 
+using test::lines_of;
 using test::Stroker;
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::istringstream stream(text);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
 
 std::size_t columns_of(const std::string& line) {
   return 1 + static_cast<std::size_t>(std::count(line.begin(), line.end(), '\t'));

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,23 @@
 #include "support/scratch_folder.h"
 
 namespace nade::test {
+
+/// A hand of random size and turn, but usable.
+inline RecordedHand random_hand(Handedness side, std::mt19937& random) {
+  std::uniform_real_distribution<double> coordinate(-0.1, 0.1);
+  RecordedHand hand;
+  hand.pose.side = side;
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    Pose& joint = hand.pose.joints[i];
+    joint.position = {coordinate(random), 1.0 + coordinate(random), coordinate(random)};
+    joint.rotation =
+        Quat(coordinate(random), coordinate(random), coordinate(random), coordinate(random))
+            .normalized();
+    hand.pose.radius[i] = 0.01 + 0.05 * coordinate(random);
+  }
+  hand.pose.confidence = 0.5 + coordinate(random);
+  return hand;
+}
 
 /// Tests that write files, each in an empty folder of its own.
 class RecordingFiles : public FolderTest {
@@ -27,6 +45,19 @@ class RecordingFiles : public FolderTest {
       names.push_back(entry.path().filename().string());
     }
     return names;
+  }
+  /// A recording of random right hands, 30 a second.
+  void write_random(const std::string& name, std::size_t frames) const {
+    std::mt19937 random(7);
+    Result<RecordingWriter> writer = RecordingWriter::create(path(name), {"test", "", true, ""});
+    ASSERT_TRUE(writer.ok()) << writer.error().message;
+    for (std::size_t i = 0; i < frames; ++i) {
+      RecordedFrame frame;
+      frame.time_ns = static_cast<std::int64_t>(i) * 33333333;
+      frame.hands[1] = random_hand(Handedness::right, random);
+      ASSERT_TRUE(writer->write(frame).ok());
+    }
+    ASSERT_TRUE(writer->finish().ok());
   }
 };
 
