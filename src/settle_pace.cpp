@@ -100,7 +100,7 @@ bool hold_back(const HandPose& last, const HandPose& next, double most_m, const 
   const auto hold = [&](std::size_t joint) {
     const Vec3 way = way_of(joint);
     const double length_m = way.norm();
-    if (length_m <= most_m || rows.size() == kMostContactRows) return;
+    if (length_m <= most_m) return;
     ContactRow& row =
         rows.emplace_back(motion_along(posed, joint_point(joint), -way / length_m, frame));
     row.kind = RowKind::hold_back;

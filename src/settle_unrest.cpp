@@ -11,6 +11,8 @@ namespace {
 
 /// Unrest is the mean over about this time.
 constexpr double kUnrestTime_s = 0.35;
+/// So many samples tell how the acceleration changes.
+constexpr int kEnoughSamples = 4;
 /// Samples are taken no closer than this, and belong to one motion if they are no farther apart.
 constexpr double kClosest_s = 0.002;
 constexpr double kFarthest_s = 0.05;
@@ -19,6 +21,8 @@ constexpr double kCalm_mpss = 0.05;
 constexpr double kRestless_mpss = 0.25;
 /// Whose joints accelerate by less is at rest.
 constexpr double kStill_mpss = 1e-6;
+/// A hand that was found just now counts as half restless, until it is known or lies still.
+constexpr double kUnknownShare = 0.5;
 /// The pulls on a restless hand are so many times as strong.
 constexpr double kRestlessPull = 25.0;
 /// Fingers are relaxed up to this curl.
@@ -32,6 +36,8 @@ constexpr double kWhiteChange = 20.0 / 6.0;
 /// 0 for a hand that moves smoothly, to 1 for one that trembles or whose tracker errs: unrest is
 /// j^3/a^2, docs/method.md.
 double unrest_share(const Unrest& unrest) {
+  const bool known = unrest.samples >= kEnoughSamples || unrest.change_root_mean > 0.0;
+  if (!known && unrest.elapsed_s <= kFarthest_s) return kUnknownShare;
   const double acceleration = unrest.root_mean * unrest.root_mean;
   if (!(acceleration > kStill_mpss)) return 0.0;
   const double white = unrest.change_root_mean * unrest.change_root_mean / std::sqrt(kWhiteChange);
@@ -82,11 +88,12 @@ void follow_unrest(const HandPose& hand, double seconds, Unrest& unrest) noexcep
   }
   const double share = followed(elapsed_s, kUnrestTime_s);
   const auto follow = [share](double sum, double& root_mean) {
-    root_mean += share * (std::pow(sum / kJointCount, 0.25) - root_mean);
+    const double root = std::pow(sum / kJointCount, 0.25);
+    root_mean = root_mean == 0.0 ? root : root_mean + share * (root - root_mean);
   };
   if (unrest.samples >= 2) follow(square, unrest.root_mean);
   if (unrest.samples >= 3) follow(change_square, unrest.change_root_mean);
-  unrest.samples = std::min(unrest.samples + 1, 3);
+  unrest.samples = std::min(unrest.samples + 1, kEnoughSamples);
 }
 
 FingerCurls curls_of(const HandModel& model) noexcept {

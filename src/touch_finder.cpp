@@ -216,7 +216,7 @@ double add_pad(const TouchSearch& search, const NearPad& near, const PadMemory& 
     const double above_m = gap_m + search.sink_m - kMargin_m;
     const double brake_m = brake_at(search, near, normal, above_m);
     const double reach_m = search.row_reach_m + std::max(cushion_m, brake_m);
-    if (gap_m > reach_m || rows.size() == kMostContactRows) continue;
+    if (gap_m > reach_m || rows.size() == kMostSkinRows) continue;
     ContactRow& row = rows.emplace_back(motion_along(posed, point, normal, search.frame));
     row.cushion_m = cushion_m;
     row.brake_m = brake_m;
@@ -244,8 +244,7 @@ void add_pulls(const TouchSearch& search, const PosedHand& posed, const PatchTou
     const PatchTouch& patch = patches[i];
     const bool nearest = i == kNearestSkin;
     const PullGrowth& growth = nearest ? kTouchPull : kPartPull;
-    const bool drawn = patch.point && memory.rows.size() < kMostContactRows;
-    memory.pulls[i] = drawn ? pull_strength(search, patch, growth, i) : 0.0;
+    memory.pulls[i] = patch.point ? pull_strength(search, patch, growth, i) : 0.0;
     if (memory.pulls[i] == 0.0) continue;
     ContactRow& row =
         memory.rows.emplace_back(motion_along(posed, *patch.point, patch.normal, search.frame));

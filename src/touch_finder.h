@@ -9,8 +9,10 @@
 
 namespace nade {
 
-/// Rows beyond this many are left out.
-inline constexpr std::size_t kMostContactRows = 1024;
+/// Rows for skin beyond this many are left out: a hand found anew has one for every point. Then there
+/// are those that draw near, and what holds back the wrist and the digits.
+inline constexpr std::size_t kMostSkinRows = 1280;
+inline constexpr std::size_t kMostContactRows = kMostSkinRows + kPulls + 1 + kDigitCount;
 
 /// A patch of skin, drawn and tracked, against the surface near it. World frame.
 struct PatchTouch {

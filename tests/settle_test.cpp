@@ -135,6 +135,21 @@ TEST(Settle, ADeepHandThatIsFoundComesOut) {
   }
 }
 
+TEST(Settle, WhatIsPressedInOfAHandThatIsFoundLiesOnTheSurface) {
+  // Tilted, deep, and its thumb farther from the surface than its skin would push it there.
+  HandCorrector corrector(settling());
+  const HandPose tracked = pressed_hand(0.042, 0.5);
+  const CorrectedHand& result = corrector.update(tracked, plane(), 0);
+  EXPECT_GT(lowest_skin(result.pose, plane()), -0.0005);
+  for (std::size_t i = 0; i < kPartCount; ++i) {
+    const auto skin_height_m = [&](const HandPose& hand) {
+      return hand[joint_of(part_at(i))].position.y() - generic_skin_depths().depth_m[i];
+    };
+    if (skin_height_m(tracked) > -0.01) continue;
+    EXPECT_LT(skin_height_m(result.pose), 0.008) << name_of(part_at(i));
+  }
+}
+
 TEST(Settle, AHandOnItsWayOutIsFreeInTheEnd) {
   HandCorrector corrector(settling());
   std::int64_t time_ns = 0;

@@ -96,7 +96,7 @@ using JointVectors = std::array<Vec3, kJointCount>;
 /// smooth one. World frame. The means are over about a third of a second of the root mean square
 /// over the joints, and of square roots, so that one sudden turn counts for little.
 struct Unrest {
-  int samples = 0;                ///< of this motion, up to 3: enough for all of it
+  int samples = 0;                ///< of this motion, up to 4: enough for all of it
   double elapsed_s = 0.0;         ///< since the last
   JointVectors joints{};          ///< in it, m
   JointVectors velocity{};        ///< m/s
