@@ -24,11 +24,11 @@ constexpr double kStill_mpss = 1e-6;
 /// A hand that was found just now counts as half restless, until it is known or lies still.
 constexpr double kUnknownShare = 0.5;
 /// The pulls on a restless hand are so many times as strong.
-constexpr double kRestlessPull = 25.0;
+constexpr double kRestlessPull = 30.0;
 /// Fingers are relaxed up to this curl.
 constexpr double kRelaxed_rad = 0.9;
 /// Curled by so much more, a finger is drawn no more strongly than a calm hand's.
-constexpr double kCurled_rad = 0.5;
+constexpr double kCurled_rad = 0.65;
 /// Where each frame errs by itself, the change's square is so many times the acceleration's: third
 /// differences against second ones.
 constexpr double kWhiteChange = 20.0 / 6.0;
