@@ -11,8 +11,8 @@ namespace nade {
 struct ContactForces {
   Vec3 push = Vec3::Zero();  ///< of all skin that it keeps out; world frame
   /// What the contacts add to each freedom's stiffness where the levers that they act on change
-  /// (Tournier, Nesme, Gilles, Faure. Stable constrained dynamics. 2015). Without it planes send some
-  /// bends from side to side, round after round.
+  /// (Tournier, Nesme, Gilles, Faure. Stable constrained dynamics. 2015). Without it planes send
+  /// some bends from side to side, round after round.
   HandFreedoms geometric = HandFreedoms::Zero();
   bool touches = false;  ///< any skin, if only its cushion
 };

@@ -9,8 +9,8 @@
 
 namespace nade {
 
-/// Rows for skin beyond this many are left out: a hand found anew has one for every point. Then there
-/// are those that draw near, and what holds back the wrist and the digits.
+/// Rows for skin beyond this many are left out: a hand found anew has one for every point. Then
+/// there are those that draw near, and what holds back the wrist and the digits.
 inline constexpr std::size_t kMostSkinRows = 1280;
 inline constexpr std::size_t kMostContactRows = kMostSkinRows + kPulls + 1 + kDigitCount;
 
