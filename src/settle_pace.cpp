@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "touch_finder.h"
 
 namespace nade {
 namespace {

@@ -21,7 +21,8 @@ constexpr double kCalm_mpss = 0.05;
 constexpr double kRestless_mpss = 0.25;
 /// Whose joints accelerate by less is at rest.
 constexpr double kStill_mpss = 1e-6;
-/// A hand that was found just now counts as half restless, until it is known or lies still.
+/// A hand that is seen for the first time counts as half restless so long, or until it is known.
+constexpr double kUnknown_s = 0.05;
 constexpr double kUnknownShare = 0.5;
 /// The pulls on a restless hand are so many times as strong.
 constexpr double kRestlessPull = 30.0;
@@ -37,7 +38,7 @@ constexpr double kWhiteChange = 20.0 / 6.0;
 /// j^3/a^2, docs/method.md.
 double unrest_share(const Unrest& unrest) {
   const bool known = unrest.samples >= kEnoughSamples || unrest.change_root_mean > 0.0;
-  if (!known && unrest.elapsed_s <= kFarthest_s) return kUnknownShare;
+  if (!known && unrest.age_s <= kUnknown_s) return kUnknownShare;
   const double acceleration = unrest.root_mean * unrest.root_mean;
   if (!(acceleration > kStill_mpss)) return 0.0;
   const double white = unrest.change_root_mean * unrest.change_root_mean / std::sqrt(kWhiteChange);
@@ -65,6 +66,7 @@ void break_motion(Unrest& unrest) noexcept { unrest.samples = 0; }
 
 void follow_unrest(const HandPose& hand, double seconds, Unrest& unrest) noexcept {
   unrest.elapsed_s += seconds;
+  unrest.age_s += seconds;
   bool moved = false;
   for (std::size_t i = 0; i < kJointCount; ++i) {
     moved = moved || hand.joints[i].position != unrest.joints[i];

@@ -141,6 +141,7 @@ TEST(Settle, WhatIsPressedInOfAHandThatIsFoundLiesOnTheSurface) {
   const HandPose tracked = pressed_hand(0.042, 0.5);
   const CorrectedHand& result = corrector.update(tracked, plane(), 0);
   EXPECT_GT(lowest_skin(result.pose, plane()), -0.0005);
+  EXPECT_LT(tracked[Joint::thumb_tip].position.y(), -0.01);
   for (std::size_t i = 0; i < kPartCount; ++i) {
     const auto skin_height_m = [&](const HandPose& hand) {
       return hand[joint_of(part_at(i))].position.y() - generic_skin_depths().depth_m[i];

@@ -52,6 +52,27 @@ TEST(SettleUnrest, ARestlessHandLiesNearerToTheSurface) {
   }
 }
 
+/// Of a hand just found nothing is known. Drawn as a calm one its fingertips hovered by 16 mm.
+TEST(SettleUnrest, AHandJustFoundLiesOnTheSurface) {
+  HandCorrector corrector(settling());
+  const HandPose found = corrector.update(pressed_hand(0.02, 0.6), plane(), 0).pose;
+  EXPECT_LT(found[Joint::middle_tip].position.y(), 0.006);
+}
+
+/// Samples too rare to tell unrest by are no unrest.
+TEST(SettleUnrest, AHandThatIsSeenRarelyIsNoMoreRestless) {
+  const auto drawn_tip_m = [](int every) {
+    HandCorrector corrector(settling());
+    HandPose pose;
+    for (int i = 0; i < 180; i += every) {
+      const Vec3 along(0.05 * std::sin(0.01 * i), 0.0, 0.05 * std::cos(0.01 * i));
+      pose = corrector.update(pressed_hand(0.02, 0.6, along), plane(), i * kFrame_ns).pose;
+    }
+    return pose[Joint::middle_tip].position.y();
+  };
+  EXPECT_NEAR(drawn_tip_m(6), drawn_tip_m(1), 0.001) << "15 a second";
+}
+
 /// Drawn as strongly as an open hand, a fist on a table was opened by 48 degrees.
 TEST(SettleUnrest, AFistStaysAFist) {
   const HandPose tracked = pressed_hand(0.02, 0.0, Vec3::Zero(), gripping_hand());

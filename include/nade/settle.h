@@ -98,6 +98,7 @@ using JointVectors = std::array<Vec3, kJointCount>;
 struct Unrest {
   int samples = 0;                ///< of this motion, up to 4: enough for all of it
   double elapsed_s = 0.0;         ///< since the last
+  double age_s = 0.0;             ///< since this hand was first seen
   JointVectors joints{};          ///< in it, m
   JointVectors velocity{};        ///< m/s
   JointVectors acceleration{};    ///< m/s^2
