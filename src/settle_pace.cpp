@@ -1,8 +1,6 @@
 #include "settle_pace.h"
 
-#include <algorithm>
 #include <cmath>
-
 
 namespace nade {
 namespace {

@@ -42,16 +42,6 @@ class CliTest : public FolderTest {
     return shell("\"$NADE\" " + arguments);
   }
 
-  /// Names of what the folder holds.
-  [[nodiscard]] std::vector<std::string> files() const {
-    std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(folder())) {
-      names.push_back(entry.path().filename().string());
-    }
-    std::sort(names.begin(), names.end());
-    return names;
-  }
-
   /// A short stroke to work on, as a plain recording.
   void make_stroke(const std::string& name, const std::string& options = "--object plane") const {
     const Ran ran = nade("synth -o " + name + " --duration 0.6 " + options);

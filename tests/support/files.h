@@ -2,7 +2,6 @@
 
 #include <fstream>
 #include <iterator>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -14,11 +13,14 @@ inline std::string read_file(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// A text's lines without their ends.
+/// A text's whole lines without their ends; a last one that lacks its end is none.
 inline std::vector<std::string> lines_of(const std::string& text) {
-  std::istringstream stream(text);
   std::vector<std::string> lines;
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  std::size_t from = 0;
+  for (std::size_t to = text.find('\n'); to != std::string::npos; to = text.find('\n', from)) {
+    lines.push_back(text.substr(from, to - from));
+    from = to + 1;
+  }
   return lines;
 }
 

@@ -39,13 +39,6 @@ class RecordingFiles : public FolderTest {
     write_file(path(name), content);
     return path(name);
   }
-  [[nodiscard]] std::vector<std::string> files() const {
-    std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(folder())) {
-      names.push_back(entry.path().filename().string());
-    }
-    return names;
-  }
   /// A recording of random right hands, 30 a second.
   void write_random(const std::string& name, std::size_t frames) const {
     std::mt19937 random(7);
