@@ -25,27 +25,24 @@ constexpr double kRowReachOfMotion = 0.4;
 // How fast a correction may change where nothing pushes: so many times the tracked hand's own
 // motion, and a little more, so that a hand at rest is released as well.
 constexpr double kShiftRate = 2.0;
-constexpr double kTurnRate = 1.09;
-constexpr double kBendRate = 0.4;
+constexpr double kTurnRate = 1.2;
+constexpr double kBendRate = 0.435;
 constexpr double kFreeRate_mps = 0.003;
 constexpr double kWallStiffness = 1e5;
 /// A joint's mass: a spring of this over the square of the frame's seconds keeps it going. Less in
 /// the air, where the hand comes back to the tracked one.
-constexpr double kInertia = 1.54;
-constexpr double kInertiaInAir = 0.75;
+constexpr double kInertia = 1.65;
+constexpr double kInertiaInAir = 0.8;
 /// Turns and bends follow with this time constant.
-constexpr double kViscosity_s = 0.061;
+constexpr double kViscosity_s = 0.0506;
 /// And shifts along the surface with this: there the hand moves as the person's does.
 constexpr double kSlideTime_s = 30.0;
 /// Over an edge what was depth on one face is astray on the other: there it goes with this, for as
 /// long as an edge is remembered.
-constexpr double kEdgeSlideTime_s = 0.376;
+constexpr double kEdgeSlideTime_s = 0.44;
 constexpr double kEdgeTime_s = 0.29;
 /// In the air, all of a correction goes with this.
-constexpr double kReleaseTime_s = 0.08;
-/// No joint goes farther in a frame than so many times the tracked hand's fastest, and a little
-/// more, unless the object pushes or pulls harder than this holds it back.
-constexpr double kFastest = 1.02;
+constexpr double kReleaseTime_s = 0.0976;
 /// What the tracked joints do against the object is smoothed over this time.
 constexpr double kVelocityTime_s = 0.016;
 /// The direction of the object's push is smoothed over this time.
@@ -91,7 +88,9 @@ class Settling {
 
   SettledHand run() {
     const int rounds = fresh_ ? kFirstRounds : kRounds;
-    const double most_m = kFastest * motion_m_ + kFreeRate_mps * seconds_;
+    // No joint goes farther than the tracked hand's fastest, and a little, unless the object pushes
+    // or pulls harder than this holds it back.
+    const double most_m = motion_m_ + kFreeRate_mps * seconds_;
     PosedHand posed = pose_hand(model_, correction_);
     for (int round = 0; round < rounds; ++round) {
       patches_ = find_touches(search_, posed, memory_);
@@ -210,7 +209,8 @@ void Settling::start() {
   }
   if (fresh_) return;
   search_.before = pose_flesh(carried(memory_.last.drawn), model_.scale);
-  search_.braking_mpss = braking_at(motion_m_ / seconds_);
+  search_.speed_mps = motion_m_ / seconds_;
+  search_.nearest_m = memory_.nearest_m;
   coasted_ = coasted_joints(memory_.last, memory_.drift, tracked, placement, seconds_);
 }
 
@@ -332,6 +332,7 @@ void Settling::remember_contact() {
                    options_.friction, memory_);
   }
   memory_.height_m = std::max(0.0, push_.dot(correction_.palm.shift));
+  memory_.nearest_m = patches_[kNearestSkin].gap_m;
   memory_.push = push_;
   memory_.normal = push_.isZero() ? push_ : normal_;
 }

@@ -7,7 +7,7 @@ namespace {
 
 // A shift of 19 mm costs as much as bending a finger at its knuckle by a radian.
 constexpr double kShiftStiffness = 1.0 / (0.018 * 0.018);
-constexpr double kTurnStiffness = 5.5;
+constexpr double kTurnStiffness = 6.0;
 /// About the surface's normal: the heading is the person's own.
 constexpr double kSpinStiffness = 32.0;
 /// Base abduction, base, middle and last flexion. A finger pushed from below gives way at its

@@ -15,8 +15,8 @@ constexpr double kMargin_m = 0.0002;
 // What the person pressed in is drawn to the surface until it is this near, from as far as
 // `kPullReach_m`, with a pull that comes in time.
 constexpr double kPullRest_m = 0.00028;
-constexpr double kPullFade_m = 0.0097;
-constexpr double kPullTime_s = 0.08;
+constexpr double kPullFade_m = 0.0099;
+constexpr double kPullTime_s = 0.075;
 
 /// How a pull grows with the tracked skin's depth.
 struct PullGrowth {
@@ -24,21 +24,25 @@ struct PullGrowth {
   double full_m;
   double stiffness;
 };
-constexpr PullGrowth kPartPull{-0.0053, 0.0187, 5.63e4};
+constexpr PullGrowth kPartPull{-0.006, 0.0175, 5.47e4};
 /// While any skin is pressed in, what is nearest to the surface is kept within reach of a touch: a
 /// hand that leaves does not take off before the person's own does.
-constexpr PullGrowth kTouchPull{0.0, 0.0137, 3.48e5};
+constexpr PullGrowth kTouchPull{0.0, 0.0114, 3.23e5};
 constexpr double kHighestTouch_m = 0.0012;
 
 // Skin lands on a cushion and leaves it by the same way: at rest so thick, and thicker by the way
 // that it goes in so long. It never goes quite flat.
 constexpr double kThinnest_m = 0.0004;
-constexpr double kThickest_m = 0.0123;
-constexpr double kLandingTime_s = 0.08;
+constexpr double kThickest_m = 0.009;
+constexpr double kLandingTime_s = 0.0885;
 constexpr double kFlat_m = 0.0002;
 /// Drawn skin that comes down by itself brakes no less than this, as stiff as a damper.
-constexpr double kBraking_mpss = 1.92;
-constexpr double kBrakeDamping = 500.0;
+constexpr double kBraking_mpss = 1.53;
+constexpr double kBrakeDamping = 2e4;
+/// What lands after the skin that is nearest to the surface may take so many times its way.
+constexpr double kLaterWay = 3.0;
+/// What could come no nearer than this to where it brakes needs no row, by `row_reach_m`.
+constexpr double kRowReachOfBrake = 0.5;
 
 /// A pad's plane serves for as long as the pad stays within this, or within this share of how far
 /// its skin is from touching.
@@ -127,9 +131,9 @@ double cushion_thickness(double speed_mps) {
   return std::min(kThickest_m, kThinnest_m + kLandingTime_s * speed_mps);
 }
 
-/// The most of a velocity that can be toward a surface: along the push, or any in the air.
-double landing_speed(const TouchSearch& search, const Vec3& velocity) {
-  return search.push.isZero() ? velocity.norm() : std::abs(search.push.dot(velocity));
+/// The most of a velocity or a way that can be toward a surface: along the push, or any in the air.
+double landing_part(const TouchSearch& search, const Vec3& motion) {
+  return search.push.isZero() ? motion.norm() : std::abs(search.push.dot(motion));
 }
 
 /// What skin lands on, under one pad.
@@ -174,14 +178,58 @@ Cushion cushion_under(const TouchSearch& search, const NearPad& near, const Vec3
   return {cushion_thickness(speed_mps), normal.dot(lift)};
 }
 
-/// How near to the surface a pad's skin may come in this frame that would be `gap_m` away from it:
-/// so near that it can still be brought to rest above the surface.
-double brake_at(const TouchSearch& search, const NearPad& near, const Vec3& normal, double gap_m) {
-  if (!search.before) return 0.0;
-  const double before_m = gap_m - normal.dot(near.way);
-  if (before_m <= 0.0 || before_m >= kThickest_m) return 0.0;
-  const double landing_mps = std::sqrt(2.0 * search.braking_mpss * before_m);
-  return std::max(0.0, before_m - landing_mps * search.seconds);
+/// How drawn skin that comes down by itself is brought to rest, at an even deceleration.
+class Landing {
+ public:
+  explicit Landing(const TouchSearch& search) : search_(search) {
+    if (!search.before) return;
+    longest_ = search.push.isZero() ? 1.0 : kLaterWay;
+    cushioned_m_ =
+        slowing(search.speed_mps * search.speed_mps / (2.0 * cushion_thickness(search.speed_mps)));
+  }
+
+  /// Skin that was higher than this above the surface, and would come this much nearer in the
+  /// frame, needs no row.
+  [[nodiscard]] double highest(double approach_m) const {
+    const double step_m = approach_m + kRowReachOfBrake * search_.row_reach_m;
+    if (longest_ == 0.0 || step_m <= 0.0) return 0.0;
+    const double slowing_m = slowing_on(longest_);
+    return std::min(longest_ * kThickest_m, step_m * (step_m + slowing_m) / (2.0 * slowing_m));
+  }
+
+  /// How near to the surface skin may come that was so high: so near that it can still be brought
+  /// to rest on it in whole frames. A way of a k (k + 1) / 2 is gone in k of them.
+  [[nodiscard]] double brake_at(double before_m) const {
+    const double way = way_from(before_m);
+    if (before_m >= way * kThickest_m) return 0.0;
+    const double slowing_m = slowing_on(way);
+    const double step_m = 0.5 * (std::sqrt(slowing_m * (slowing_m + 8.0 * before_m)) - slowing_m);
+    return std::max(0.0, before_m - step_m);
+  }
+
+ private:
+  /// Times the cushion's thickness. What is nearest to the surface has to touch it in time; the
+  /// rest of a hand that touches may land more softly.
+  [[nodiscard]] double way_from(double before_m) const {
+    return longest_ - (longest_ - 1.0) * std::clamp(search_.nearest_m / before_m, 0.0, 1.0);
+  }
+  [[nodiscard]] double slowing(double deceleration_mpss) const {
+    return deceleration_mpss * search_.seconds * search_.seconds;
+  }
+  [[nodiscard]] double slowing_on(double way) const {
+    return std::max(slowing(kBraking_mpss), cushioned_m_ / way);
+  }
+
+  const TouchSearch& search_;
+  double longest_ = 0.0;      ///< way; 0 on a hand found anew, which comes from nowhere
+  double cushioned_m_ = 0.0;  ///< what a frame slows skin down that lands on its cushion alone
+};
+
+/// Skin needs no row that is farther from the surface than this, goes to it as fast as `speed_mps`
+/// when tracked, and came no more than `approach_m` nearer when drawn.
+double reach_of_rows(const TouchSearch& search, const Landing& landing, double speed_mps,
+                     double approach_m) {
+  return std::max({search.row_reach_m, cushion_thickness(speed_mps), landing.highest(approach_m)});
 }
 
 /// Takes one more point into a patch.
@@ -193,12 +241,15 @@ void join(const PatchTouch& touch, PatchTouch& patch) {
 
 /// Takes in a pad's skin: rows for what is near, and what its part needs to know. Gives the lowest
 /// skin's height.
-double add_pad(const TouchSearch& search, const NearPad& near, const PadMemory& known,
-               const PosedHand& posed, PatchTouches& patches, std::vector<ContactRow>& rows) {
+double add_pad(const TouchSearch& search, const Landing& landing, const NearPad& near,
+               const PadMemory& known, const PosedHand& posed, PatchTouches& patches,
+               std::vector<ContactRow>& rows) {
   const Placement& placement = search.object.placement();
   const Vec3 surface_point = placement.to_world(known.plane->point);
   const Vec3 normal = placement.pose.rotation * known.plane->normal;
   const Cushion cushion = cushion_under(search, near, normal);
+  const double approach_m = -normal.dot(near.way);
+  const double highest_m = landing.highest(approach_m);
   const FleshPad& pad = near.pad;
   double lowest_m = std::numeric_limits<double>::infinity();
   for (std::size_t k = pad.first; k < pad.first + pad.count; ++k) {
@@ -214,13 +265,14 @@ double add_pad(const TouchSearch& search, const NearPad& near, const PadMemory& 
       join(touch, patches[index_of(*pad.part)]);
     }
     const double above_m = gap_m + search.sink_m - kMargin_m;
-    const double brake_m = brake_at(search, near, normal, above_m);
-    const double reach_m = search.row_reach_m + std::max(cushion_m, brake_m);
-    if (gap_m > reach_m || rows.size() == kMostSkinRows) continue;
+    const double before_m = above_m + approach_m;
+    const bool brakes = before_m > 0.0 && before_m < highest_m;
+    if (!brakes && gap_m > search.row_reach_m + cushion_m) continue;
+    if (rows.size() == kMostSkinRows) continue;
     ContactRow& row = rows.emplace_back(motion_along(posed, point, normal, search.frame));
     row.cushion_m = cushion_m;
-    row.brake_m = brake_m;
-    row.stiffness = kBrakeDamping / search.seconds;
+    row.brake_m = brakes ? landing.brake_at(before_m) : 0.0;
+    row.stiffness = row.brake_m > 0.0 ? kBrakeDamping / search.seconds : 0.0;
     row.gap_m = above_m;
     row.curvature = known.curvature;
   }
@@ -258,11 +310,6 @@ void add_pulls(const TouchSearch& search, const PosedHand& posed, const PatchTou
 
 }  // namespace
 
-double braking_at(double speed_mps) noexcept {
-  const double cushioned_mpss = speed_mps * speed_mps / (2.0 * cushion_thickness(speed_mps));
-  return std::max(kBraking_mpss, cushioned_mpss);
-}
-
 PatchTouches find_touches(const TouchSearch& search, const PosedHand& posed,
                           SettleMemory& memory) noexcept {
   memory.rows.clear();
@@ -270,9 +317,11 @@ PatchTouches find_touches(const TouchSearch& search, const PosedHand& posed,
   PatchTouches patches;
   double fastest_mps = 0.0;
   for (const Vec3& velocity : search.velocity) {
-    fastest_mps = std::max(fastest_mps, landing_speed(search, velocity));
+    fastest_mps = std::max(fastest_mps, landing_part(search, velocity));
   }
-  const double farthest_m = std::max(search.row_reach_m, cushion_thickness(fastest_mps));
+  const Landing landing(search);
+  const double farthest_m =
+      reach_of_rows(search, landing, fastest_mps, search.speed_mps * search.seconds);
   for (std::size_t i = 0; i < search.flesh.pads.size(); ++i) {
     const FleshPad& pad = search.flesh.pads[i];
     const double pull_m = pad.part ? kPullReach_m : 0.0;
@@ -281,12 +330,13 @@ PatchTouches find_touches(const TouchSearch& search, const PosedHand& posed,
     if (known.free_m - memory.travel_m > radius_m + std::max(farthest_m, pull_m)) continue;
     NearPad near{pad, posed.flesh.position(pad.middle)};
     near.velocity = velocity_of(search, pad);
-    near.landing_mps = landing_speed(search, near.velocity);
-    const double near_m = std::max(search.row_reach_m, cushion_thickness(near.landing_mps));
+    near.landing_mps = landing_part(search, near.velocity);
+    if (search.before) near.way = near.middle - search.before->position(pad.middle);
+    const double near_m =
+        reach_of_rows(search, landing, near.landing_mps, landing_part(search, near.way));
     const double reach_m = radius_m + std::max(near_m, pull_m);
     if (!find_plane(search.object, near.middle, reach_m, memory.travel_m, known)) continue;
-    if (search.before) near.way = near.middle - search.before->position(pad.middle);
-    const double lowest_m = add_pad(search, near, known, posed, patches, memory.rows);
+    const double lowest_m = add_pad(search, landing, near, known, posed, patches, memory.rows);
     if (pad.part) continue;
     known.same_m = std::max(kSamePlane_m, kSamePlaneOfGap * lowest_m);
     if (lowest_m <= near_m) continue;

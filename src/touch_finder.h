@@ -30,7 +30,7 @@ using PatchTouches = std::array<PatchTouch, kPulls>;
 inline constexpr std::size_t kNearestSkin = kPartCount;
 
 /// From farther than this a patch is not drawn to the surface.
-inline constexpr double kPullReach_m = 0.03;
+inline constexpr double kPullReach_m = 0.04;
 
 /// How many times as strong as on a calm hand each pull is.
 using PullStrengths = std::array<double, kPulls>;
@@ -47,16 +47,13 @@ struct TouchSearch {
   PullStrengths pulls_before{};  ///< `SettleMemory::pulls` of the last frame
   PullStrengths strengths{};
   JointVectors velocity{};                              ///< of the tracked joints, world, smoothed
-  double braking_mpss = 0.0;                            ///< `braking_at` the tracked hand's speed
+  double speed_mps = 0.0;                               ///< of the tracked hand's fastest joint
+  double nearest_m = 0.0;                               ///< `SettleMemory::nearest_m`
   Vec3 push = Vec3::Zero();                             ///< unit, or zero in the air
   double row_reach_m = 0.0;                             ///< skin nearer than this gets a row
   double sink_m = 0.0;                                  ///< so far in is still out
   Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  ///< in which the rows' wrist is counted
 };
-
-/// The even deceleration at which drawn skin lands that comes down by itself, as a finger does that
-/// the palm has lifted. `speed_mps` is the tracked hand's.
-[[nodiscard]] double braking_at(double speed_mps) noexcept;
 
 /// Fills `memory.rows` and `memory.pulls` for a posed hand.
 [[nodiscard]] PatchTouches find_touches(const TouchSearch& search, const PosedHand& posed,

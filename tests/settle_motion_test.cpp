@@ -122,6 +122,24 @@ TEST(SettleMotion, ATiltedHandLandsWithoutAJolt) {
   }
 }
 
+/// A hand that is thrown onto a table at 0.8 m/s, and whatever of it lands later, is brought to
+/// rest over some frames.
+TEST(SettleMotion, AFastHandLandsSoftly) {
+  constexpr double kStep_m = 0.8 / 90.0;
+  const double stopped_dead = std::sqrt(static_cast<double>(kJointCount)) * kStep_m;
+  for (const double tilt_rad : {-0.5, -0.25, 0.0, 0.25, 0.5}) {
+    HandCorrector corrector(settling());
+    std::vector<HandPose> drawn;
+    for (int i = 0; i < 45; ++i) {
+      const double depth_m = std::min(-0.09 + kStep_m * i, 0.03);
+      drawn.push_back(
+          corrector.update(pressed_hand(depth_m, tilt_rad), plane(), i * kFrame_ns).pose);
+    }
+    EXPECT_LT(jitter(drawn), 0.6 * stopped_dead) << tilt_rad << " rad";
+    EXPECT_LT(lowest_skin(drawn.back(), plane()), 0.0015) << tilt_rad << " rad";
+  }
+}
+
 /// One end of a tilted hand is the last to leave. The drawn one stays on the surface for as long as
 /// that end of the person's own is in it, though the rest is already sent off.
 TEST(SettleMotion, ATiltedHandLeavesNoSoonerThanThePersonsOwn) {
