@@ -39,7 +39,7 @@ constexpr double kViscosity_s = 0.0506;
 constexpr double kSlideTime_s = 30.0;
 /// Over an edge what was depth on one face is astray on the other: there it goes with this, for as
 /// long as an edge is remembered.
-constexpr double kEdgeSlideTime_s = 0.44;
+constexpr double kEdgeSlideTime_s = 0.42;
 constexpr double kEdgeTime_s = 0.29;
 /// In the air, all of a correction goes with this.
 constexpr double kReleaseTime_s = 0.0976;

@@ -239,8 +239,20 @@ void join(const PatchTouch& touch, PatchTouch& patch) {
   patch.depth_m = depth_m;
 }
 
-/// Takes in a pad's skin: rows for what is near, and what its part needs to know. Gives the lowest
-/// skin's height.
+/// Of what is kept out; null if there are as many as can be.
+ContactRow* add_row(const TouchSearch& search, const PosedHand& posed, const PatchTouch& touch,
+                    std::vector<ContactRow>& rows) {
+  if (rows.size() == kMostSkinRows) return nullptr;
+  ContactRow& row =
+      rows.emplace_back(motion_along(posed, *touch.point, touch.normal, search.frame));
+  row.gap_m = touch.gap_m + search.sink_m - kMargin_m;
+  row.cushion_m = touch.cushion_m;
+  row.curvature = touch.curvature;
+  return &row;
+}
+
+/// Takes in a pad's skin: rows for what is near, of which the lowest brakes, and what its part
+/// needs to know. Gives the lowest skin's height.
 double add_pad(const TouchSearch& search, const Landing& landing, const NearPad& near,
                const PadMemory& known, const PosedHand& posed, PatchTouches& patches,
                std::vector<ContactRow>& rows) {
@@ -248,15 +260,13 @@ double add_pad(const TouchSearch& search, const Landing& landing, const NearPad&
   const Vec3 surface_point = placement.to_world(known.plane->point);
   const Vec3 normal = placement.pose.rotation * known.plane->normal;
   const Cushion cushion = cushion_under(search, near, normal);
-  const double approach_m = -normal.dot(near.way);
-  const double highest_m = landing.highest(approach_m);
   const FleshPad& pad = near.pad;
-  double lowest_m = std::numeric_limits<double>::infinity();
+  PatchTouch lowest;
+  ContactRow* braking = nullptr;
   for (std::size_t k = pad.first; k < pad.first + pad.count; ++k) {
     const FleshPoint& point = search.flesh.skin[k];
     const double gap_m = normal.dot(posed.flesh.position(point) - surface_point);
     const double cushion_m = std::max(kFlat_m, cushion.at(gap_m));
-    lowest_m = std::min(lowest_m, gap_m);
     PatchTouch touch{gap_m,  cushion.lift_m - gap_m, &point,   surface_point,
                      normal, known.curvature,        cushion_m};
     join(touch, patches[kNearestSkin]);
@@ -264,19 +274,20 @@ double add_pad(const TouchSearch& search, const Landing& landing, const NearPad&
       touch.depth_m = normal.dot(surface_point - search.tracked.position(point));
       join(touch, patches[index_of(*pad.part)]);
     }
-    const double above_m = gap_m + search.sink_m - kMargin_m;
-    const double before_m = above_m + approach_m;
-    const bool brakes = before_m > 0.0 && before_m < highest_m;
-    if (!brakes && gap_m > search.row_reach_m + cushion_m) continue;
-    if (rows.size() == kMostSkinRows) continue;
-    ContactRow& row = rows.emplace_back(motion_along(posed, point, normal, search.frame));
-    row.cushion_m = cushion_m;
-    row.brake_m = brakes ? landing.brake_at(before_m) : 0.0;
-    row.stiffness = row.brake_m > 0.0 ? kBrakeDamping / search.seconds : 0.0;
-    row.gap_m = above_m;
-    row.curvature = known.curvature;
+    const bool near_surface = gap_m <= search.row_reach_m + cushion_m;
+    ContactRow* const row = near_surface ? add_row(search, posed, touch, rows) : nullptr;
+    if (gap_m >= lowest.gap_m) continue;
+    lowest = touch;
+    braking = row;
   }
-  return lowest_m;
+  const double approach_m = -normal.dot(near.way);
+  const double before_m = lowest.gap_m + search.sink_m - kMargin_m + approach_m;
+  if (before_m <= 0.0 || before_m >= landing.highest(approach_m)) return lowest.gap_m;
+  if (!braking) braking = add_row(search, posed, lowest, rows);
+  if (!braking) return lowest.gap_m;
+  braking->brake_m = landing.brake_at(before_m);
+  braking->stiffness = braking->brake_m > 0.0 ? kBrakeDamping / search.seconds : 0.0;
+  return lowest.gap_m;
 }
 
 /// How strong a pull is, as `SettleMemory::pulls` has it: it comes in time, and goes at once.
