@@ -73,10 +73,10 @@ HandPose random_hand(test::Random& random) {
   return hand;
 }
 
-/// Frames on meshes, and those in which the moved hand was the same.
+/// Trials on meshes, and those in which the moved hand did not stay the same.
 struct Tally {
   int on_meshes = 0;
-  int same_on_meshes = 0;
+  int parted = 0;
 };
 
 /// Where a hand wanders: about the object's middle, or about a place on its surface.
@@ -110,6 +110,7 @@ void expect_properties(test::Random& random, Tally& tally) {
   HandCorrector moved_along;
   HandCorrector other_side;
   std::int64_t time_ns = 0;
+  bool parted = false;
   for (int i = 0; i < kFramesPerTrial; ++i) {
     time_ns += 5'000'000 + random.below(15'000'000);
     const Vec3 palm(reach_m * std::sin(speed * i), reach_m * std::cos(1.3 * speed * i),
@@ -128,14 +129,15 @@ void expect_properties(test::Random& random, Tally& tally) {
     const HandPose moved_drawn = moved_along.update(moved(tracked, motion), there, time_ns).pose;
     const double moved_differs_m = largest_motion(moved(drawn, motion), moved_drawn);
     if (!surface.exact) {
-      ++tally.on_meshes;
-      if (moved_differs_m < kSame_m) ++tally.same_on_meshes;
+      parted = parted || moved_differs_m >= kSame_m;
       continue;
     }
     ASSERT_LT(moved_differs_m, kSame_m);
     const HandPose mirror_drawn = other_side.update(mirrored(tracked), in_mirror, time_ns).pose;
     ASSERT_LT(largest_motion(drawn, mirrored(mirror_drawn)), kSame_m);
   }
+  if (!surface.exact) ++tally.on_meshes;
+  if (parted) ++tally.parted;
   const HandPose away =
       test::placed_hand(hand, here.placement().pose.position + Vec3(0.0, 3.0, 0.0), turn);
   if (surface.name == "plane") return;
@@ -153,9 +155,9 @@ TEST(SettleProperties, HoldForRandomHandsSurfacesAndMotions) {
     expect_properties(random, tally);
     if (HasFatalFailure()) return;
   }
-  // At a tie, as between two sides of a box, rounding decides, and the two hands part for the rest
-  // of a trial: 5 % of the frames over many seeds, up to 10 % in the few trials of one.
-  EXPECT_GT(tally.same_on_meshes, 0.85 * tally.on_meshes);
+  // At a tie, as between two sides of a box, rounding decides, and the two hands part: in 8 % of
+  // the trials over many seeds, in more of the few of one.
+  EXPECT_LE(tally.parted, 1 + tally.on_meshes / 5);
 }
 
 }  // namespace
