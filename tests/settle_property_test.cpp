@@ -155,8 +155,8 @@ TEST(SettleProperties, HoldForRandomHandsSurfacesAndMotions) {
     expect_properties(random, tally);
     if (HasFatalFailure()) return;
   }
-  // At a tie, as between two sides of a box, rounding decides, and the two hands part: in 8 % of
-  // the trials over many seeds, in more of the few of one.
+  // At a tie, as between two sides of a box, rounding decides, and the two hands part: in a tenth
+  // of the trials over many seeds, in more of the few of one.
   EXPECT_LE(tally.parted, 1 + tally.on_meshes / 5);
 }
 
