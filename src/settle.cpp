@@ -210,7 +210,6 @@ void Settling::start() {
   if (fresh_) return;
   search_.before = pose_flesh(carried(memory_.last.drawn), model_.scale);
   search_.speed_mps = motion_m_ / seconds_;
-  search_.nearest_m = memory_.nearest_m;
   coasted_ = coasted_joints(memory_.last, memory_.drift, tracked, placement, seconds_);
 }
 

@@ -181,7 +181,8 @@ Cushion cushion_under(const TouchSearch& search, const NearPad& near, const Vec3
 /// How drawn skin that comes down by itself is brought to rest, at an even deceleration.
 class Landing {
  public:
-  explicit Landing(const TouchSearch& search) : search_(search) {
+  /// `nearest_m` is `SettleMemory::nearest_m`.
+  Landing(const TouchSearch& search, double nearest_m) : search_(search), nearest_m_(nearest_m) {
     if (!search.before) return;
     longest_ = search.push.isZero() ? 1.0 : kLaterWay;
     cushioned_m_ =
@@ -211,7 +212,7 @@ class Landing {
   /// Times the cushion's thickness. What is nearest to the surface has to touch it in time; the
   /// rest of a hand that touches may land more softly.
   [[nodiscard]] double way_from(double before_m) const {
-    return longest_ - (longest_ - 1.0) * std::clamp(search_.nearest_m / before_m, 0.0, 1.0);
+    return longest_ - (longest_ - 1.0) * std::clamp(nearest_m_ / before_m, 0.0, 1.0);
   }
   [[nodiscard]] double slowing(double deceleration_mpss) const {
     return deceleration_mpss * search_.seconds * search_.seconds;
@@ -221,6 +222,7 @@ class Landing {
   }
 
   const TouchSearch& search_;
+  double nearest_m_;
   double longest_ = 0.0;      ///< way; 0 on a hand found anew, which comes from nowhere
   double cushioned_m_ = 0.0;  ///< what a frame slows skin down that lands on its cushion alone
 };
@@ -239,13 +241,18 @@ void join(const PatchTouch& touch, PatchTouch& patch) {
   patch.depth_m = depth_m;
 }
 
+/// How far skin may still go to where it is held out.
+double room_above(const TouchSearch& search, double gap_m) {
+  return gap_m + search.sink_m - kMargin_m;
+}
+
 /// Of what is kept out; null if there are as many as can be.
 ContactRow* add_row(const TouchSearch& search, const PosedHand& posed, const PatchTouch& touch,
                     std::vector<ContactRow>& rows) {
   if (rows.size() == kMostSkinRows) return nullptr;
   ContactRow& row =
       rows.emplace_back(motion_along(posed, *touch.point, touch.normal, search.frame));
-  row.gap_m = touch.gap_m + search.sink_m - kMargin_m;
+  row.gap_m = room_above(search, touch.gap_m);
   row.cushion_m = touch.cushion_m;
   row.curvature = touch.curvature;
   return &row;
@@ -281,7 +288,7 @@ double add_pad(const TouchSearch& search, const Landing& landing, const NearPad&
     braking = row;
   }
   const double approach_m = -normal.dot(near.way);
-  const double before_m = lowest.gap_m + search.sink_m - kMargin_m + approach_m;
+  const double before_m = room_above(search, lowest.gap_m) + approach_m;
   if (before_m <= 0.0 || before_m >= landing.highest(approach_m)) return lowest.gap_m;
   if (!braking) braking = add_row(search, posed, lowest, rows);
   if (!braking) return lowest.gap_m;
@@ -330,7 +337,7 @@ PatchTouches find_touches(const TouchSearch& search, const PosedHand& posed,
   for (const Vec3& velocity : search.velocity) {
     fastest_mps = std::max(fastest_mps, landing_part(search, velocity));
   }
-  const Landing landing(search);
+  const Landing landing(search, memory.nearest_m);
   const double farthest_m =
       reach_of_rows(search, landing, fastest_mps, search.speed_mps * search.seconds);
   for (std::size_t i = 0; i < search.flesh.pads.size(); ++i) {
