@@ -159,7 +159,7 @@ void HandCorrector::settle(const HandPose& tracked, const Object& object,
   } else if (settled.corrected) {
     result_.status = HandStatus::released;
   }
-  last_ = Frame{tracked, settled.correction, time_ns};
+  last_ = Frame{tracked, {}, time_ns};
 }
 
 void HandCorrector::start_frame(const HandPose& tracked, std::int64_t time_ns) noexcept {

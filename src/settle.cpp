@@ -6,6 +6,7 @@
 #include "posed_hand.h"
 #include "ramps.h"
 #include "settle_forces.h"
+#include "settle_frame.h"
 #include "settle_pace.h"
 #include "settle_slide.h"
 #include "settle_solver.h"
@@ -180,7 +181,7 @@ void Settling::start() {
   }
   const HandPose& tracked = model_.tracked;
   find_motion();
-  fresh_ = !memory_.last.tracked || !same_surface || motion_m_ > kTeleport_m;
+  fresh_ = !memory_.last.tracked || motion_m_ > kTeleport_m;
   if (fresh_) {
     memory_.last = {};
     memory_.push = memory_.normal = Vec3::Zero();
@@ -350,7 +351,6 @@ SettledHand Settling::finish(const HandPose& posed) {
   const double away_m = reach_of(step_between({}, correction_, search_.frame));
   if (!touches_ && away_m < kReleased_m) correction_ = {};
   SettledHand settled;
-  settled.correction = correction_;
   settled.hand = is_none(correction_) ? model_.tracked : posed;
   remember_contact();
   remember_frame(settled.hand);
@@ -392,7 +392,14 @@ void forget_hand(SettleMemory& memory) noexcept {
 SettledHand settle_hand(const HandPose& tracked, const HandFlesh& flesh, double scale,
                         const Object& object, double seconds, const SettleOptions& options,
                         SettleMemory& memory) noexcept {
-  return Settling(tracked, flesh, scale, object, seconds, options, memory).run();
+  if (memory.surface != &object.surface()) memory.last.tracked.reset();
+  if (!memory.last.tracked) memory.home = object.placement().pose;
+  const HandPose hand = seen_from(memory.home, tracked);
+  const Object there = seen_from(memory.home, object);
+  SettledHand settled = brought_back(
+      memory.home, Settling(hand, flesh, rounded(scale), there, seconds, options, memory).run());
+  if (!settled.corrected) settled.hand = tracked;
+  return settled;
 }
 
 }  // namespace nade

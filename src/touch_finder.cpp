@@ -54,6 +54,8 @@ constexpr double kFarSlack_m = 0.02;
 constexpr double kUnseen = 0.5;
 /// At an edge the nearest point's normal turns in a moment. A pad's follows over about this way.
 constexpr double kTurningWay_m = 0.0026;
+/// Cosine between the normals of two sides of a sheet, at most; well below that of a box's faces.
+constexpr double kOtherSide = -0.5;
 /// A pad's curvature is learned from ways of about this length on; no sharper.
 constexpr double kLeastWay_m = 0.0018;
 constexpr double kSharpest = 100.0;
@@ -73,7 +75,7 @@ PadPlane plane_at(const SurfacePoint& nearest, const Vec3& middle) {
 
 /// Lets the normal follow from where it was at the last look; across a thin sheet it turns at once.
 void turn_slowly(const PadPlane& before, double way_m, PadPlane& now) {
-  if (before.normal.dot(now.normal) <= 0.0) return;
+  if (before.normal.dot(now.normal) <= kOtherSide) return;
   const double share = followed(way_m, kTurningWay_m);
   now.normal = (before.normal + share * (now.normal - before.normal)).normalized();
 }

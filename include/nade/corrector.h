@@ -85,7 +85,7 @@ class HandCorrector {
  private:
   struct Frame {
     HandPose tracked;
-    Correction correction;  ///< as computed, before any release
+    Correction correction;  ///< of the paper's method, before any release
     std::int64_t time_ns = 0;
   };
 

@@ -109,8 +109,10 @@ struct Unrest {
 /// Each finger's middle and last flexion together, radians; 0 for the thumb.
 using FingerCurls = std::array<double, kDigitCount>;
 
-/// What settle_hand remembers of a hand from frame to frame, and room to work in.
+/// What settle_hand remembers of a hand from frame to frame, and room to work in. Its world is
+/// where the object was when the hand was found.
 struct SettleMemory {
+  Pose home;  ///< that place, in the world
   SettledFrame last;
   bool fresh = false;                ///< whether the hand was found anew in it
   const Surface* surface = nullptr;  ///< the last frame's; only its address counts
@@ -147,7 +149,6 @@ void forget_hand(SettleMemory& memory) noexcept;
 /// The hand settled on the surface.
 struct SettledHand {
   HandPose hand;  ///< bit for bit the tracked one where nothing is to be corrected
-  Correction correction;
   Contacts contacts{};
   bool touches = false;    ///< or is about to land: some skin is on its cushion
   bool corrected = false;  ///< or touched until just now: the hand is not the tracked one
