@@ -53,8 +53,8 @@ void print(const HandFlesh& flesh, const HandMesh& mesh) {
       "inline constexpr std::array<PadRow, {}> kPads{{{{\n",
       flesh.pads.size());
   for (const nade::FleshPad& pad : flesh.pads) {
-    fmt::print("{{{}, {}, {}}},\n", pad.part ? static_cast<int>(*pad.part) : -1, pad.count,
-               "{" + row_of(pad.middle, mesh) + "}");
+    fmt::print("{{{}, {}, {{{}}}}},\n", pad.part ? static_cast<int>(*pad.part) : -1, pad.count,
+               row_of(pad.middle, mesh));
   }
   fmt::print("}}}};\n\ninline constexpr std::array<FleshRow, {}> kSkin{{{{\n", flesh.skin.size());
   for (const FleshPoint& point : flesh.skin) fmt::print("{{{}}},\n", row_of(point, mesh));
