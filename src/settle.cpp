@@ -26,24 +26,16 @@ constexpr double kRowReachOfMotion = 0.4;
 // How fast a correction may change where nothing pushes: so many times the tracked hand's own
 // motion, and a little more, so that a hand at rest is released as well.
 constexpr double kShiftRate = 2.0;
-constexpr double kTurnRate = 1.2;
-constexpr double kBendRate = 0.435;
+constexpr double kTurnRate = 0.939;
+constexpr double kBendRate = 0.663;
 constexpr double kFreeRate_mps = 0.003;
 constexpr double kWallStiffness = 1e5;
 /// A joint's mass: a spring of this over the square of the frame's seconds keeps it going. Less in
 /// the air, where the hand comes back to the tracked one.
-constexpr double kInertia = 1.65;
-constexpr double kInertiaInAir = 0.8;
-/// Turns and bends follow with this time constant.
-constexpr double kViscosity_s = 0.0506;
-/// And shifts along the surface with this: there the hand moves as the person's does.
-constexpr double kSlideTime_s = 30.0;
-/// Over an edge what was depth on one face is astray on the other: there it goes with this, for as
-/// long as an edge is remembered.
-constexpr double kEdgeSlideTime_s = 0.42;
+constexpr double kInertia = 1.72;
+constexpr double kInertiaInAir = 1.14;
+/// An edge is remembered for about so long.
 constexpr double kEdgeTime_s = 0.29;
-/// In the air, all of a correction goes with this.
-constexpr double kReleaseTime_s = 0.0976;
 /// What the tracked joints do against the object is smoothed over this time.
 constexpr double kVelocityTime_s = 0.016;
 /// The direction of the object's push is smoothed over this time.
@@ -98,18 +90,20 @@ class Settling {
       if (memory_.rows.empty() && is_none(correction_)) break;
       SettleProblem problem = problem_at(posed, round);
       HandFreedoms step = least_cost_step(problem, HandFreedoms::Zero());
-      PosedHand next = pose_hand(model_, after(step));
+      Correction corrected = after(step);
+      PosedHand next = pose_hand(model_, corrected);
       if (!fresh_ && hold_back(memory_.last.drawn, next.hand, most_m, posed, step, search_.frame,
                                memory_.rows)) {
         problem.rows = memory_.rows;
         step = least_cost_step(problem, step);
-        next = pose_hand(model_, after(step));
+        corrected = after(step);
+        next = pose_hand(model_, corrected);
       }
       const ContactForces forces = contact_forces(posed, memory_.rows, step, search_.frame);
       memory_.geometric = forces.geometric;
       touches_ = forces.touches;
       find_push(forces.push);
-      correction_ = after(step);
+      correction_ = corrected;
       posed = next;
       if (reach_of(step) < (fresh_ ? kFirstSettled_m : kSettled_m)) break;
     }
@@ -263,15 +257,9 @@ SettleProblem Settling::problem_at(const PosedHand& posed, int round) const {
 
   const HandFreedoms changed = step_between(last_, correction_, search_.frame);
   if (!fresh_) {
-    HandFreedoms time_s = HandFreedoms::Constant(kReleaseTime_s);
-    if (!memory_.push.isZero()) {
-      const double slide_hz = (1.0 - memory_.edge) / kSlideTime_s + memory_.edge / kEdgeSlideTime_s;
-      time_s.setConstant(kViscosity_s);
-      time_s.head<3>() << 1.0 / slide_hz, 1.0 / slide_hz, 0.0;  // out of the object at once
-    }
-    const HandFreedoms damping = stiffness_of_pose(HandFreedoms::Zero()).cwiseProduct(time_s);
-    problem.springs.add(damping / seconds_, -changed);
-    const double inertia = memory_.push.isZero() ? kInertiaInAir : kInertia;
+    const bool in_air = memory_.push.isZero();
+    problem.springs.add((in_air ? damping_in_air() : damping(memory_.edge)) / seconds_, -changed);
+    const double inertia = in_air ? kInertiaInAir : kInertia;
     add_inertia(coasted_, inertia / (seconds_ * seconds_), posed, search_.frame, problem.springs);
   }
 
@@ -372,22 +360,6 @@ SettledHand Settling::finish(const HandPose& posed) {
 }
 
 }  // namespace
-
-SettleMemory settle_memory(const HandFlesh& flesh) {
-  SettleMemory memory;
-  memory.pads.resize(flesh.pads.size());
-  memory.rows.reserve(kMostContactRows);
-  memory.joints.fill(Vec3::Zero());  // Eigen's vectors begin with whatever was there
-  memory.velocity.fill(Vec3::Zero());
-  memory.drift.fill(Vec3::Zero());
-  memory.unrest = no_unrest();
-  return memory;
-}
-
-void forget_hand(SettleMemory& memory) noexcept {
-  memory.last.tracked.reset();
-  memory.unrest = no_unrest();
-}
 
 SettledHand settle_hand(const HandPose& tracked, const HandFlesh& flesh, double scale,
                         const Object& object, double seconds, const SettleOptions& options,

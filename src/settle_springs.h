@@ -10,4 +10,9 @@ namespace nade {
 /// keeps the hand from lying flat on it.
 [[nodiscard]] HandFreedoms stiffness_of_pose(const HandFreedoms& away) noexcept;
 
+/// What it costs to change the correction: the stiffness of those springs, times the seconds in
+/// which each freedom follows them. `edge` is `SettleMemory::edge`.
+[[nodiscard]] HandFreedoms damping(double edge) noexcept;
+[[nodiscard]] HandFreedoms damping_in_air() noexcept;
+
 }  // namespace nade

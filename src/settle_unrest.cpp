@@ -25,7 +25,7 @@ constexpr double kStill_mpss = 1e-6;
 constexpr double kUnknown_s = 0.05;
 constexpr double kUnknownShare = 0.5;
 /// The pulls on a restless hand are so many times as strong.
-constexpr double kRestlessPull = 33.8;
+constexpr double kRestlessPull = 36.1;
 /// Fingers are relaxed up to this curl.
 constexpr double kRelaxed_rad = 0.9;
 /// Curled by so much more, a finger is drawn no more strongly than a calm hand's.

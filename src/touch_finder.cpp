@@ -12,11 +12,13 @@ namespace {
 /// The skin is kept this far out.
 constexpr double kMargin_m = 0.0002;
 
-// What the person pressed in is drawn to the surface until it is this near, from as far as
-// `kPullReach_m`, with a pull that comes in time.
+// What the person pressed in, or will so soon, is drawn to the surface until it is this near, from
+// as far as `kPullReach_m`, with a pull that comes in time.
+constexpr double kSoon_s = 0.0635;
+constexpr double kMostSoon_m = 0.00999;
 constexpr double kPullRest_m = 0.00028;
-constexpr double kPullFade_m = 0.0099;
-constexpr double kPullTime_s = 0.075;
+constexpr double kPullFade_m = 0.00918;
+constexpr double kPullTime_s = 0.0757;
 
 /// How a pull grows with the tracked skin's depth.
 struct PullGrowth {
@@ -24,21 +26,24 @@ struct PullGrowth {
   double full_m;
   double stiffness;
 };
-constexpr PullGrowth kPartPull{-0.006, 0.0175, 5.47e4};
+constexpr PullGrowth kPartPull{-0.00593, 0.0171, 5.31e4};
+/// The palm takes the whole hand with it.
+constexpr PullGrowth kPalmPull{-0.00593, 0.0171, 1.237e5};
 /// While any skin is pressed in, what is nearest to the surface is kept within reach of a touch: a
 /// hand that leaves does not take off before the person's own does.
-constexpr PullGrowth kTouchPull{0.0, 0.0114, 3.23e5};
+constexpr PullGrowth kTouchPull{0.0, 0.0137, 3.17e5};
 constexpr double kHighestTouch_m = 0.0012;
 
 // Skin lands on a cushion and leaves it by the same way: at rest so thick, and thicker by the way
 // that it goes in so long. It never goes quite flat.
 constexpr double kThinnest_m = 0.0004;
-constexpr double kThickest_m = 0.009;
+constexpr double kThickest_m = 0.0109;
 constexpr double kLandingTime_s = 0.0885;
 constexpr double kFlat_m = 0.0002;
+constexpr double kGrowthOfLift = 2.15;
 /// Drawn skin that comes down by itself brakes no less than this, as stiff as a damper.
-constexpr double kBraking_mpss = 1.53;
-constexpr double kBrakeDamping = 2e4;
+constexpr double kBraking_mpss = 1.72;
+constexpr double kBrakeDamping = 1.65e4;
 /// What lands after the skin that is nearest to the surface may take so many times its way.
 constexpr double kLaterWay = 3.0;
 /// What could come no nearer than this to where it brakes needs no row, by `row_reach_m`.
@@ -141,7 +146,8 @@ double landing_part(const TouchSearch& search, const Vec3& motion) {
 /// What skin lands on, under one pad.
 struct Cushion {
   double thickness_m = 0.0;
-  double lift_m = 0.0;  ///< of the drawn pad over the tracked one
+  double lift_m = 0.0;      ///< of the drawn pad over the tracked one
+  double approach_m = 0.0;  ///< of the drawn pad, since the last frame
 
   /// How far skin is held off the surface that would be `gap_m` away from it. From the cushion's
   /// thickness above the surface to as far below, the tracked skin is brought to rest at an even
@@ -152,13 +158,21 @@ struct Cushion {
     if (way_m > 2.0 * thickness_m) return std::max(0.0, 2.0 * thickness_m - 0.5 * way_m);
     return way_m * way_m / (4.0 * thickness_m);
   }
+
+  /// The same for drawn skin with so much room above the surface. Skin that is drawn no higher than
+  /// it is tracked has landed already: under it the cushion does not grow.
+  [[nodiscard]] double under(double gap_m, double room_m) const {
+    const double before_m = room_m + approach_m;
+    const double most_m = before_m + kThinnest_m + kGrowthOfLift * std::max(0.0, lift_m);
+    return std::clamp(at(gap_m), kFlat_m, std::max(kFlat_m, most_m));
+  }
 };
 
-/// How fast the person moves a pad against the object, m/s.
-Vec3 velocity_of(const TouchSearch& search, const FleshPad& pad) {
+/// How fast the person moves a point against the object, m/s.
+Vec3 velocity_of(const TouchSearch& search, const FleshPoint& point) {
   Vec3 velocity = Vec3::Zero();
-  for (std::size_t k = 0; k < pad.middle.joints.size() && pad.middle.weights[k] > 0.0; ++k) {
-    velocity += pad.middle.weights[k] * search.velocity[pad.middle.joints[k]];
+  for (std::size_t k = 0; k < point.joints.size() && point.weights[k] > 0.0; ++k) {
+    velocity += point.weights[k] * search.velocity[point.joints[k]];
   }
   return velocity;
 }
@@ -177,7 +191,7 @@ struct NearPad {
 Cushion cushion_under(const TouchSearch& search, const NearPad& near, const Vec3& normal) {
   const double speed_mps = std::min(std::abs(normal.dot(near.velocity)), near.landing_mps);
   const Vec3 lift = near.middle - search.tracked.position(near.pad.middle);
-  return {cushion_thickness(speed_mps), normal.dot(lift)};
+  return {cushion_thickness(speed_mps), normal.dot(lift), -normal.dot(near.way)};
 }
 
 /// How drawn skin that comes down by itself is brought to rest, at an even deceleration.
@@ -236,16 +250,16 @@ double reach_of_rows(const TouchSearch& search, const Landing& landing, double s
   return std::max({search.row_reach_m, cushion_thickness(speed_mps), landing.highest(approach_m)});
 }
 
+/// How far skin may still go to where it is held out.
+double room_above(const TouchSearch& search, double gap_m) {
+  return gap_m + search.sink_m - kMargin_m;
+}
+
 /// Takes one more point into a patch.
 void join(const PatchTouch& touch, PatchTouch& patch) {
   const double depth_m = std::max(patch.depth_m, touch.depth_m);
   if (touch.gap_m < patch.gap_m) patch = touch;
   patch.depth_m = depth_m;
-}
-
-/// How far skin may still go to where it is held out.
-double room_above(const TouchSearch& search, double gap_m) {
-  return gap_m + search.sink_m - kMargin_m;
 }
 
 /// Of what is kept out; null if there are as many as can be.
@@ -275,7 +289,7 @@ double add_pad(const TouchSearch& search, const Landing& landing, const NearPad&
   for (std::size_t k = pad.first; k < pad.first + pad.count; ++k) {
     const FleshPoint& point = search.flesh.skin[k];
     const double gap_m = normal.dot(posed.flesh.position(point) - surface_point);
-    const double cushion_m = std::max(kFlat_m, cushion.at(gap_m));
+    const double cushion_m = cushion.under(gap_m, room_above(search, gap_m));
     PatchTouch touch{gap_m,  cushion.lift_m - gap_m, &point,   surface_point,
                      normal, known.curvature,        cushion_m};
     join(touch, patches[kNearestSkin]);
@@ -289,9 +303,8 @@ double add_pad(const TouchSearch& search, const Landing& landing, const NearPad&
     lowest = touch;
     braking = row;
   }
-  const double approach_m = -normal.dot(near.way);
-  const double before_m = room_above(search, lowest.gap_m) + approach_m;
-  if (before_m <= 0.0 || before_m >= landing.highest(approach_m)) return lowest.gap_m;
+  const double before_m = room_above(search, lowest.gap_m) + cushion.approach_m;
+  if (before_m <= 0.0 || before_m >= landing.highest(cushion.approach_m)) return lowest.gap_m;
   if (!braking) braking = add_row(search, posed, lowest, rows);
   if (!braking) return lowest.gap_m;
   braking->brake_m = landing.brake_at(before_m);
@@ -303,8 +316,10 @@ double add_pad(const TouchSearch& search, const Landing& landing, const NearPad&
 double pull_strength(const TouchSearch& search, const PatchTouch& patch, const PullGrowth& growth,
                      std::size_t pull) {
   const double before = search.pulls_before[pull];
+  const double sinking_mps = -patch.normal.dot(velocity_of(search, *patch.point));
+  const double soon_m = patch.depth_m + std::clamp(kSoon_s * sinking_mps, 0.0, kMostSoon_m);
   const double strength = search.strengths[pull] *
-                          smoothstep(growth.start_m, growth.full_m, patch.depth_m) *
+                          smoothstep(growth.start_m, growth.full_m, soon_m) *
                           smoothstep(-kPullReach_m, kPullFade_m - kPullReach_m, -patch.gap_m);
   if (strength <= before) return strength;
   return before + followed(search.seconds, kPullTime_s) * (strength - before);
@@ -315,7 +330,8 @@ void add_pulls(const TouchSearch& search, const PosedHand& posed, const PatchTou
   for (std::size_t i = 0; i < kPulls; ++i) {
     const PatchTouch& patch = patches[i];
     const bool nearest = i == kNearestSkin;
-    const PullGrowth& growth = nearest ? kTouchPull : kPartPull;
+    const bool palm = i == index_of(Part::palm);
+    const PullGrowth& growth = nearest ? kTouchPull : palm ? kPalmPull : kPartPull;
     memory.pulls[i] = patch.point ? pull_strength(search, patch, growth, i) : 0.0;
     if (memory.pulls[i] == 0.0) continue;
     ContactRow& row =
@@ -349,7 +365,7 @@ PatchTouches find_touches(const TouchSearch& search, const PosedHand& posed,
     PadMemory& known = memory.pads[i];
     if (known.free_m - memory.travel_m > radius_m + std::max(farthest_m, pull_m)) continue;
     NearPad near{pad, posed.flesh.position(pad.middle)};
-    near.velocity = velocity_of(search, pad);
+    near.velocity = velocity_of(search, pad.middle);
     near.landing_mps = landing_part(search, near.velocity);
     if (search.before) near.way = near.middle - search.before->position(pad.middle);
     const double near_m =

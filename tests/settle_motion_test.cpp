@@ -94,6 +94,26 @@ TEST(SettleMotion, AHandThatLeavesABallIsNotThrownBack) {
   EXPECT_LT(most_uneven(std::span(drawn).subspan(free_from - 1)), 0.0006);
 }
 
+/// Skin that the person's own hovers over is drawn down to the ball and stays on it, however the
+/// ball turns under it: it has landed, and needs no cushion to land on.
+TEST(SettleMotion, AStrokeRunsOverABallAndOffItWithoutAKick) {
+  struct Stroke {
+    double radius_m, depth_m, tilt_rad;
+  };
+  for (const Stroke& stroke : {Stroke{0.06, 0.005, 0.3}, {0.06, 0.0, 0.3}, {0.15, -0.004, 0.0}}) {
+    const SphereSurface surface(stroke.radius_m);
+    const Object object(surface, {{{0.0, -stroke.radius_m, 0.0}, Quat::Identity()}, 1.0});
+    HandCorrector corrector(settling());
+    std::vector<HandPose> drawn;
+    for (int i = 0; i < 200; ++i) {
+      const HandPose tracked =
+          pressed_hand(stroke.depth_m, stroke.tilt_rad, {0.0, 0.0, 0.0015 * (i - 100)});
+      drawn.push_back(corrector.update(tracked, object, i * kFrame_ns).pose);
+    }
+    EXPECT_LT(most_uneven(std::span(drawn).subspan(20)), 0.0003) << stroke.radius_m << " m";
+  }
+}
+
 /// A palm that comes down at 0.2 m/s is braked over some frames, not in one, and then touches.
 TEST(SettleMotion, AHandLandsWithoutAJolt) {
   for (const Object& object : {plane(), ball()}) {
