@@ -368,10 +368,8 @@ SettledHand settle_hand(const HandPose& tracked, const HandFlesh& flesh, double 
   if (!memory.last.tracked) memory.home = object.placement().pose;
   const HandPose hand = seen_from(memory.home, tracked);
   const Object there = seen_from(memory.home, object);
-  SettledHand settled = brought_back(
-      memory.home, Settling(hand, flesh, rounded(scale), there, seconds, options, memory).run());
-  if (!settled.corrected) settled.hand = tracked;
-  return settled;
+  return brought_back(memory.home, tracked,
+                      Settling(hand, flesh, rounded(scale), there, seconds, options, memory).run());
 }
 
 }  // namespace nade

@@ -34,8 +34,8 @@ Object seen_from(const Pose& home, const Object& object) noexcept {
   return Object(object.surface(), {on_grid(home.inverse() * placement.pose), placement.scale});
 }
 
-SettledHand brought_back(const Pose& home, SettledHand settled) noexcept {
-  settled.hand = moved(settled.hand, home);
+SettledHand brought_back(const Pose& home, const HandPose& tracked, SettledHand settled) noexcept {
+  settled.hand = settled.corrected ? moved(settled.hand, home) : tracked;
   for (std::optional<PartContact>& contact : settled.contacts) {
     if (!contact) continue;
     for (Vec3* point : {&contact->ray_origin, &contact->surface_point, &contact->target}) {

@@ -16,7 +16,8 @@ namespace nade {
 /// And of the hand's size over the flesh's.
 [[nodiscard]] double rounded(double scale) noexcept;
 
-/// A hand that was settled there, in the world.
-[[nodiscard]] SettledHand brought_back(const Pose& home, SettledHand settled) noexcept;
+/// What became there of a tracked hand, in the world; the tracked one itself where nothing did.
+[[nodiscard]] SettledHand brought_back(const Pose& home, const HandPose& tracked,
+                                       SettledHand settled) noexcept;
 
 }  // namespace nade

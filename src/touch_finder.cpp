@@ -20,7 +20,7 @@ constexpr double kPullRest_m = 0.00028;
 constexpr double kPullFade_m = 0.00918;
 constexpr double kPullTime_s = 0.0757;
 
-/// How a pull grows with the tracked skin's depth.
+/// How a pull grows with the tracked skin's depth, as it soon will be.
 struct PullGrowth {
   double start_m;
   double full_m;
@@ -28,7 +28,7 @@ struct PullGrowth {
 };
 constexpr PullGrowth kPartPull{-0.00593, 0.0171, 5.31e4};
 /// The palm takes the whole hand with it.
-constexpr PullGrowth kPalmPull{-0.00593, 0.0171, 1.237e5};
+constexpr PullGrowth kPalmPull{kPartPull.start_m, kPartPull.full_m, 1.237e5};
 /// While any skin is pressed in, what is nearest to the surface is kept within reach of a touch: a
 /// hand that leaves does not take off before the person's own does.
 constexpr PullGrowth kTouchPull{0.0, 0.0137, 3.17e5};
@@ -40,6 +40,7 @@ constexpr double kThinnest_m = 0.0004;
 constexpr double kThickest_m = 0.0109;
 constexpr double kLandingTime_s = 0.0885;
 constexpr double kFlat_m = 0.0002;
+/// Under skin that has landed it may grow by so many times what that is drawn above the tracked.
 constexpr double kGrowthOfLift = 2.15;
 /// Drawn skin that comes down by itself brakes no less than this, as stiff as a damper.
 constexpr double kBraking_mpss = 1.72;
