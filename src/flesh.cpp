@@ -11,10 +11,10 @@ namespace nade {
 namespace {
 
 /// Skin that one bone leads is cut every so far along the bone, then until no piece is wider.
-constexpr double kSegment_m = 0.014;
-constexpr double kWidest_m = 0.012;
+constexpr double kSegment_m = 0.01;
+constexpr double kWidest_m = 0.007;
 /// Where all of a pad's skin faces one way, its middle lies this deep in the flesh.
-constexpr double kMiddleDepth_m = 0.006;
+constexpr double kMiddleDepth_m = 0.005;
 /// A skin point sticks out if it is the farthest in one of so many directions.
 constexpr int kDirections = 24;
 

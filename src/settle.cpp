@@ -167,15 +167,16 @@ void Settling::start() {
   const Placement& placement = object_.placement();
   const std::uint64_t shape = object_.surface().shape();
   const bool same_surface = memory_.surface == &object_.surface();
-  if (!same_surface || placement.scale != memory_.last.object.scale || shape != memory_.shape) {
+  const HandPose& tracked = model_.tracked;
+  find_motion();
+  fresh_ = !memory_.last.tracked || motion_m_ > kTeleport_m;
+  if (fresh_ || !same_surface || placement.scale != memory_.last.object.scale ||
+      shape != memory_.shape) {
     for (PadMemory& pad : memory_.pads) {
       pad.plane.reset();
       pad.clearance_m = pad.free_m = 0.0;
     }
   }
-  const HandPose& tracked = model_.tracked;
-  find_motion();
-  fresh_ = !memory_.last.tracked || motion_m_ > kTeleport_m;
   if (fresh_) {
     memory_.last = {};
     memory_.push = memory_.normal = Vec3::Zero();
@@ -203,6 +204,8 @@ void Settling::start() {
     search_.velocity[i] = placement.pose.rotation * memory_.velocity[i];
   }
   if (fresh_) return;
+  // Most often it goes on as it went: then the surface needs to be looked at only once.
+  correction_ = after(step_between(memory_.before, memory_.last.correction, search_.frame));
   search_.before = pose_flesh(carried(memory_.last.drawn), model_.scale);
   search_.speed_mps = motion_m_ / seconds_;
   coasted_ = coasted_joints(memory_.last, memory_.drift, tracked, placement, seconds_);
@@ -329,6 +332,7 @@ void Settling::remember_frame(const HandPose& drawn) {
   const SettledFrame now{model_.tracked, drawn, correction_, object_.placement()};
   if (fresh_) memory_.drift.fill(Vec3::Zero());  // it did not come from anywhere
   if (!fresh_) memory_.drift = drift_between(memory_.last, now, seconds_);
+  memory_.before = fresh_ ? now.correction : memory_.last.correction;
   memory_.last = now;
   memory_.fresh = fresh_;
   memory_.surface = &object_.surface();

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
+#include "pad_plane.h"
 #include "ramps.h"
 
 namespace nade {
@@ -50,78 +50,11 @@ constexpr double kLaterWay = 3.0;
 /// What could come no nearer than this to where it brakes needs no row, by `row_reach_m`.
 constexpr double kRowReachOfBrake = 0.5;
 
-/// A pad's plane serves for as long as the pad stays within this, or within this share of how far
-/// its skin is from touching.
-constexpr double kSamePlane_m = 0.00002;
-constexpr double kSamePlaneOfGap = 0.2;
-/// A pad that is too far is not looked at again until it could have come so much nearer.
-constexpr double kFarSlack_m = 0.02;
-/// Nor is one that faces away, until it could have come this share of what its skin lacks to a row.
-constexpr double kUnseen = 0.5;
-/// At an edge the nearest point's normal turns in a moment. A pad's follows over about this way.
-constexpr double kTurningWay_m = 0.0026;
-/// Cosine between the normals of two sides of a sheet, at most; well below that of a box's faces.
-constexpr double kOtherSide = -0.5;
-/// A pad's curvature is learned from ways of about this length on; no sharper.
-constexpr double kLeastWay_m = 0.0018;
-constexpr double kSharpest = 100.0;
+/// Of a part, skin that is higher by more than this than what else of it was looked at does not
+/// matter.
+constexpr double kAboutNearest_m = 0.004;
 /// Skin stretches by no more than this when the hand is posed, and goes no farther than a joint.
 constexpr double kStretch = 1.3;
-
-/// The plane through the surface point nearest to a pad's middle. The surface's own normal, which
-/// runs smoothly over a mesh's faces; at an edge or a tip the direction to the middle.
-PadPlane plane_at(const SurfacePoint& nearest, const Vec3& middle) {
-  PadPlane plane{middle, nearest.point, nearest.normal};
-  if (!(nearest.signed_distance > 1e-4)) return plane;
-  const Vec3 outward = (middle - nearest.point).normalized();
-  const double smooth = smoothstep(0.95, 0.995, outward.dot(nearest.normal));
-  plane.normal = (smooth * nearest.normal + (1.0 - smooth) * outward).normalized();
-  return plane;
-}
-
-/// Lets the normal follow from where it was at the last look; across a thin sheet it turns at once.
-void turn_slowly(const PadPlane& before, double way_m, PadPlane& now) {
-  if (before.normal.dot(now.normal) <= kOtherSide) return;
-  const double share = followed(way_m, kTurningWay_m);
-  now.normal = (before.normal + share * (now.normal - before.normal)).normalized();
-}
-
-/// Takes in how the normal turned on the way since the last look, metres in the object's frame. A
-/// way shorter than the least says little.
-void learn_curvature(const PadPlane& before, const Vec3& way, const PadPlane& now,
-                     PadMemory& known) {
-  const double trust = way.squaredNorm() / (way.squaredNorm() + kLeastWay_m * kLeastWay_m);
-  const double seen = way.dot(now.normal - before.normal) / (way.squaredNorm() + 1e-18);
-  known.curvature += trust * (std::clamp(seen, -kSharpest, kSharpest) - known.curvature);
-}
-
-/// Whether a pad is near enough to matter; its plane then is found anew, or as it was.
-bool find_plane(const Object& object, const Vec3& middle_world, double reach_m, double travel_m,
-                PadMemory& known) {
-  const Placement& placement = object.placement();
-  const double scale = placement.scale;
-  const Vec3 middle = placement.to_local(middle_world);
-  const double away_m = scale * (middle - known.middle).norm();
-  known.free_m = known.clearance_m - away_m + travel_m;
-  if (known.clearance_m - away_m > reach_m) return false;
-  if (known.plane && away_m <= known.same_m) return true;
-  const double search_m = reach_m + kFarSlack_m;
-  const std::optional<SurfacePoint> nearest =
-      object.surface().closest_point(middle, search_m / scale, known.hint);
-  known.middle = middle;
-  const std::optional<PadPlane> before = std::exchange(known.plane, std::nullopt);
-  known.clearance_m = nearest ? scale * nearest->signed_distance : search_m;
-  known.free_m = known.clearance_m + travel_m;
-  if (!nearest || known.clearance_m > reach_m) return false;
-  known.plane = plane_at(*nearest, middle);
-  if (before) {
-    const Vec3 way = scale * (middle - before->middle);
-    turn_slowly(*before, way.norm(), *known.plane);
-    learn_curvature(*before, way, *known.plane, known);
-  }
-  known.same_m = kSamePlane_m;
-  return true;
-}
 
 /// Adds how far the hand has gone against the object since the last look.
 void count_travel(const Object& object, const HandPose& hand, SettleMemory& memory) {
@@ -281,8 +214,9 @@ double add_pad(const TouchSearch& search, const Landing& landing, const NearPad&
                const PadMemory& known, const PosedHand& posed, PatchTouches& patches,
                std::vector<ContactRow>& rows) {
   const Placement& placement = search.object.placement();
-  const Vec3 surface_point = placement.to_world(known.plane->point);
-  const Vec3 normal = placement.pose.rotation * known.plane->normal;
+  const PadPlane plane = bent_plane(known, placement.to_local(near.middle), placement.scale);
+  const Vec3 surface_point = placement.to_world(plane.point);
+  const Vec3 normal = placement.pose.rotation * plane.normal;
   const Cushion cushion = cushion_under(search, near, normal);
   const FleshPad& pad = near.pad;
   PatchTouch lowest;
@@ -345,6 +279,16 @@ void add_pulls(const TouchSearch& search, const PosedHand& posed, const PatchTou
   }
 }
 
+/// The most that any skin came nearer since the last frame.
+double farthest_way(const TouchSearch& search, const PosedHand& posed) {
+  double farthest_m = 0.0;
+  for (std::size_t i = 0; i < kJointCount && search.before; ++i) {
+    const Vec3 way = posed.flesh.origin[i] - search.before->origin[i];
+    farthest_m = std::max(farthest_m, landing_part(search, way));
+  }
+  return kStretch * farthest_m;
+}
+
 }  // namespace
 
 PatchTouches find_touches(const TouchSearch& search, const PosedHand& posed,
@@ -358,26 +302,35 @@ PatchTouches find_touches(const TouchSearch& search, const PosedHand& posed,
   }
   const Landing landing(search, memory.nearest_m);
   const double farthest_m =
-      reach_of_rows(search, landing, fastest_mps, search.speed_mps * search.seconds);
+      reach_of_rows(search, landing, fastest_mps, farthest_way(search, posed));
+  const Placement& placement = search.object.placement();
+  std::optional<Vec3> palm;
+  if (!search.before) palm = placement.to_local(posed.hand[Joint::palm].position);
   for (std::size_t i = 0; i < search.flesh.pads.size(); ++i) {
     const FleshPad& pad = search.flesh.pads[i];
-    const double pull_m = pad.part ? kPullReach_m : 0.0;
+    // Of a part, only what is about the nearest to the surface matters.
+    const double pull_m =
+        pad.part ? std::min(kPullReach_m, patches[index_of(*pad.part)].gap_m + kAboutNearest_m)
+                 : 0.0;
     const double radius_m = kStretch * search.scale * pad.radius_m;
     PadMemory& known = memory.pads[i];
-    if (known.free_m - memory.travel_m > radius_m + std::max(farthest_m, pull_m)) continue;
+    const double farthest_reach_m = radius_m + std::max(farthest_m, pull_m);
+    if (known.free_m - memory.travel_m > farthest_reach_m) continue;
     NearPad near{pad, posed.flesh.position(pad.middle)};
+    const Vec3 middle = placement.to_local(near.middle);
+    if (left_of(search.object, middle, memory.travel_m, known) > farthest_reach_m) continue;
     near.velocity = velocity_of(search, pad.middle);
     near.landing_mps = landing_part(search, near.velocity);
     if (search.before) near.way = near.middle - search.before->position(pad.middle);
     const double near_m =
         reach_of_rows(search, landing, near.landing_mps, landing_part(search, near.way));
     const double reach_m = radius_m + std::max(near_m, pull_m);
-    if (!find_plane(search.object, near.middle, reach_m, memory.travel_m, known)) continue;
+    if (!find_plane(search.object, palm, middle, reach_m, memory.travel_m, known)) continue;
     const double lowest_m = add_pad(search, landing, near, known, posed, patches, memory.rows);
-    if (pad.part) continue;
-    known.same_m = std::max(kSamePlane_m, kSamePlaneOfGap * lowest_m);
-    if (lowest_m <= near_m) continue;
-    known.clearance_m = std::max(known.clearance_m, reach_m + kUnseen * (lowest_m - near_m));
+    known.same_m = plane_serves(known, lowest_m);
+    // One that faces away is not looked at again until it could have come what its skin lacks.
+    if (pad.part || lowest_m <= near_m) continue;
+    known.clearance_m = std::max(known.clearance_m, reach_m + lowest_m - near_m);
     known.free_m = known.clearance_m + memory.travel_m;
   }
   add_pulls(search, posed, patches, memory);

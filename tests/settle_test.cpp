@@ -151,6 +151,26 @@ TEST(Settle, WhatIsPressedInOfAHandThatIsFoundLiesOnTheSurface) {
   }
 }
 
+/// Fingers that reach through a board by 16 mm and more are drawn on the side that the palm is on.
+TEST(Settle, AHandThatIsFoundAcrossABoardIsDrawnOnItsPalmsSide) {
+  const auto board = MeshSurface::build(test::box_mesh({0.2F, 0.004F, 0.2F}), "board").value();
+  const Object object(*board);
+  for (const double depth_m : {-0.02, 0.0, 0.01}) {
+    for (const double tilt : {-0.35, -0.5}) {
+      HandCorrector corrector(settling());
+      const HandPose tracked = pressed_hand(depth_m, tilt);
+      ASSERT_LT(tracked[Joint::middle_tip].position.y(), -0.02);
+      for (int i = 0; i < 20; ++i) {
+        const HandPose drawn = corrector.update(tracked, object, i * kFrame_ns).pose;
+        EXPECT_GT(lowest_skin(drawn, object), -0.001) << depth_m << ' ' << tilt << ' ' << i;
+        for (const Joint tip : {Joint::index_tip, Joint::middle_tip, Joint::ring_tip}) {
+          EXPECT_GT(drawn[tip].position.y(), 0.004) << depth_m << ' ' << tilt << ' ' << i;
+        }
+      }
+    }
+  }
+}
+
 TEST(Settle, AHandOnItsWayOutIsFreeInTheEnd) {
   HandCorrector corrector(settling());
   std::int64_t time_ns = 0;

@@ -114,6 +114,7 @@ using FingerCurls = std::array<double, kDigitCount>;
 struct SettleMemory {
   Pose home;  ///< that place, in the world
   SettledFrame last;
+  Correction before;                 ///< that of the frame before it
   bool fresh = false;                ///< whether the hand was found anew in it
   const Surface* surface = nullptr;  ///< the last frame's; only its address counts
   std::uint64_t shape = 0;           ///< the surface's, in the last frame

@@ -1,0 +1,140 @@
+#include "pad_plane.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "ramps.h"
+
+namespace nade {
+namespace {
+
+/// A pad's plane serves until the surface could have bent away from it by so much, but for no
+/// shorter and no longer way than these; or for this share of how far its skin is from touching.
+constexpr double kBentAway_m = 0.00005;
+constexpr double kLeastSame_m = 0.00002;
+constexpr double kMostSame_m = 0.0015;
+constexpr double kSameOfGap = 0.2;
+/// A pad that is too far is not looked at again until it could have come so much nearer.
+constexpr double kFarSlack_m = 0.02;
+/// At an edge the nearest point's normal turns in a moment. A pad's follows over about this way.
+constexpr double kTurningWay_m = 0.0026;
+/// Cosine between the normals of two sides of a sheet, at most; well below that of a box's faces.
+constexpr double kOtherSide = -0.5;
+/// From a wall's side, what is looked for from so far outside is on it.
+constexpr double kJustOutside_m = 0.0005;
+/// Through a thicker wall no hand found anew is drawn back.
+constexpr double kThickestWall_m = 0.02;
+/// A pad's curvature is learned from ways of about this length on; no sharper.
+constexpr double kLeastWay_m = 0.0018;
+constexpr double kSharpest = 100.0;
+
+/// The plane through the surface point nearest to a pad's middle. The surface's own normal, which
+/// runs smoothly over a mesh's faces; at an edge or a tip the direction to the middle.
+PadPlane plane_at(const SurfacePoint& nearest, const Vec3& middle) {
+  PadPlane plane{middle, nearest.point, nearest.normal};
+  if (!(nearest.signed_distance > 1e-4)) return plane;
+  const Vec3 outward = (middle - nearest.point).normalized();
+  const double smooth = smoothstep(0.95, 0.995, outward.dot(nearest.normal));
+  plane.normal = (smooth * nearest.normal + (1.0 - smooth) * outward).normalized();
+  return plane;
+}
+
+/// Lets the normal follow from where it was at the last look; across a thin sheet it turns at once.
+void turn_slowly(const PadPlane& before, double way_m, PadPlane& now) {
+  if (before.normal.dot(now.normal) <= kOtherSide) return;
+  const double share = followed(way_m, kTurningWay_m);
+  now.normal = (before.normal + share * (now.normal - before.normal)).normalized();
+}
+
+/// Takes in how the normal turned on the way since the last look, metres in the object's frame. A
+/// way shorter than the least says little.
+void learn_curvature(const PadPlane& before, const Vec3& way, const PadPlane& now,
+                     PadMemory& known) {
+  const double trust = way.squaredNorm() / (way.squaredNorm() + kLeastWay_m * kLeastWay_m);
+  const double seen = way.dot(now.normal - before.normal) / (way.squaredNorm() + 1e-18);
+  known.curvature += trust * (std::clamp(seen, -kSharpest, kSharpest) - known.curvature);
+}
+
+/// Across a thin wall the nearest point may be on the other side. The point on the side that a
+/// plane is on, if that is another.
+std::optional<SurfacePoint> on_side_of(const Object& object, const PadPlane& plane,
+                                       const SurfacePoint& nearest, const Vec3& middle,
+                                       double search, SurfaceHint& hint) {
+  const double behind = plane.normal.dot(plane.point - middle);
+  if (behind <= 0.0 || plane.normal.dot(nearest.normal) > kOtherSide) return std::nullopt;
+  const double outside = behind + kJustOutside_m / object.placement().scale;
+  return object.surface().closest_point(middle + outside * plane.normal, search, hint);
+}
+
+/// Where a thin wall is between the palm and a pad: its side that the palm is on.
+std::optional<PadPlane> wall_before(const Object& object, const Vec3& palm, const Vec3& middle) {
+  const Surface& surface = object.surface();
+  const double scale = object.placement().scale;
+  const double length = (middle - palm).norm();
+  if (length < 1e-9) return std::nullopt;
+  const Vec3 way = (middle - palm) / length;
+  const std::optional<RayHit> in = surface.first_hit({palm, way, length});
+  if (!in || in->from_inside) return std::nullopt;
+  const double begin = in->distance + kJustOutside_m / scale;
+  const double rest = std::max(0.0, length - begin);
+  const std::optional<RayHit> out = surface.first_hit({palm + begin * way, way, rest});
+  const double thickness = std::abs(in->normal.dot(way)) * (out ? out->distance : rest);
+  if (thickness > kThickestWall_m / scale) return std::nullopt;
+  return PadPlane{middle, in->point, in->normal};
+}
+
+double away_of(const Object& object, const Vec3& middle, const PadMemory& known) {
+  return object.placement().scale * (middle - known.middle).norm();
+}
+
+}  // namespace
+
+double left_of(const Object& object, const Vec3& middle, double travel_m,
+               PadMemory& known) noexcept {
+  const double left_m = known.clearance_m - away_of(object, middle, known);
+  known.free_m = left_m + travel_m;
+  return left_m;
+}
+
+bool find_plane(const Object& object, const std::optional<Vec3>& palm, const Vec3& middle,
+                double reach_m, double travel_m, PadMemory& known) noexcept {
+  const double away_m = away_of(object, middle, known);
+  if (known.clearance_m - away_m > reach_m) return false;
+  if (known.plane && away_m <= known.same_m) return true;
+  const double scale = object.placement().scale;
+  const double search_m = reach_m + kFarSlack_m;
+  const std::optional<SurfacePoint> nearest =
+      object.surface().closest_point(middle, search_m / scale, known.hint);
+  known.middle = middle;
+  std::optional<PadPlane> before = std::exchange(known.plane, std::nullopt);
+  known.clearance_m = nearest ? scale * nearest->signed_distance : search_m;
+  known.free_m = known.clearance_m + travel_m;
+  if (!nearest || known.clearance_m > reach_m) return false;
+  known.plane = plane_at(*nearest, middle);
+  if (!before && palm) before = wall_before(object, *palm, middle);
+  if (!before) return true;
+  const std::optional<SurfacePoint> same =
+      on_side_of(object, *before, *nearest, middle, search_m / scale, known.hint);
+  if (same) known.plane = PadPlane{middle, same->point, same->normal};
+  const Vec3 way = scale * (middle - before->middle);
+  turn_slowly(*before, way.norm(), *known.plane);
+  learn_curvature(*before, way, *known.plane, known);
+  return true;
+}
+
+PadPlane bent_plane(const PadMemory& known, const Vec3& middle, double scale) noexcept {
+  PadPlane plane = *known.plane;
+  const Vec3 way = scale * along_surface(middle - plane.middle, plane.normal);
+  plane.point -= 0.5 * known.curvature * way.squaredNorm() / scale * plane.normal;
+  plane.normal = (plane.normal + known.curvature * way).normalized();
+  return plane;
+}
+
+double plane_serves(const PadMemory& known, double gap_m) noexcept {
+  const double curvature = std::abs(known.curvature) + 1e-9;
+  const double same_m = std::sqrt(2.0 * kBentAway_m / curvature);
+  return std::max(std::clamp(same_m, kLeastSame_m, kMostSame_m), kSameOfGap * gap_m);
+}
+
+}  // namespace nade
