@@ -11,7 +11,7 @@ namespace {
 
 /// A pad's plane serves until the surface could have bent away from it by so much, but for no
 /// shorter and no longer way than these; or for this share of how far its skin is from touching.
-constexpr double kBentAway_m = 0.00005;
+constexpr double kBentAway_m = 0.0001;
 constexpr double kLeastSame_m = 0.00002;
 constexpr double kMostSame_m = 0.0015;
 constexpr double kSameOfGap = 0.2;

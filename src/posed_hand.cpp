@@ -87,15 +87,6 @@ HandModel measure_model(const HandPose& tracked, double scale) noexcept {
   return model;
 }
 
-Vec3 PosedFlesh::position(const FleshPoint& point) const noexcept {
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t k = 0; k < point.joints.size() && point.weights[k] > 0.0; ++k) {
-    const std::size_t joint = point.joints[k];
-    sum += point.weights[k] * (linear[joint] * point.local[k] + origin[joint]);
-  }
-  return sum;
-}
-
 PosedFlesh pose_flesh(const HandPose& hand, double scale) noexcept {
   PosedFlesh flesh;
   for (std::size_t i = 0; i < kJointCount; ++i) {

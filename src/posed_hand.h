@@ -28,7 +28,14 @@ struct PosedFlesh {
   std::array<Eigen::Matrix3d, kJointCount> linear{};  ///< rotation times scale
   std::array<Vec3, kJointCount> origin{};
 
-  [[nodiscard]] Vec3 position(const FleshPoint& point) const noexcept;
+  [[nodiscard]] Vec3 position(const FleshPoint& point) const noexcept {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t k = 0; k < point.joints.size() && point.weights[k] > 0.0; ++k) {
+      const std::size_t joint = point.joints[k];
+      sum += point.weights[k] * (linear[joint] * point.local[k] + origin[joint]);
+    }
+    return sum;
+  }
 };
 [[nodiscard]] PosedFlesh pose_flesh(const HandPose& hand, double scale) noexcept;
 

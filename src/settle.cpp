@@ -21,13 +21,13 @@ namespace {
 /// Skin farther than this from its plane, and than this share of what the hand has moved, does not
 /// come to touch it in the frame.
 constexpr double kRowReach_m = 0.0009;
-constexpr double kRowReachOfMotion = 0.4;
+constexpr double kRowReachOfMotion = 0.33;
 
 // How fast a correction may change where nothing pushes: so many times the tracked hand's own
 // motion, and a little more, so that a hand at rest is released as well.
 constexpr double kShiftRate = 2.0;
 constexpr double kTurnRate = 0.939;
-constexpr double kBendRate = 0.663;
+constexpr double kBendRate = 0.646;
 constexpr double kFreeRate_mps = 0.003;
 constexpr double kWallStiffness = 1e5;
 /// A joint's mass: a spring of this over the square of the frame's seconds keeps it going. Less in
@@ -39,7 +39,7 @@ constexpr double kEdgeTime_s = 0.29;
 /// What the tracked joints do against the object is smoothed over this time.
 constexpr double kVelocityTime_s = 0.016;
 /// The direction of the object's push is smoothed over this time.
-constexpr double kPushTime_s = 0.253;
+constexpr double kPushTime_s = 0.263;
 /// Cosines between that and a face's normal: from another face, and surely from the same.
 constexpr double kOtherFace = 0.05;
 constexpr double kSameFace = 0.3;

@@ -7,7 +7,7 @@ namespace {
 
 // A shift of 19 mm costs as much as bending a finger at its knuckle by a radian.
 constexpr double kShiftStiffness = 1.0 / (0.018 * 0.018);
-constexpr double kTurnStiffness = 7.02;
+constexpr double kTurnStiffness = 6.9;
 /// About the surface's normal: the heading is the person's own.
 constexpr double kSpinStiffness = 32.0;
 /// Base abduction, base, middle and last flexion. A finger pushed from below gives way at its
@@ -25,7 +25,7 @@ constexpr double kSlideTime_s = 30.0;
 /// Over an edge what was depth on one face is astray on the other: there it goes with this.
 constexpr double kEdgeSlideTime_s = 0.436;
 /// In the air, all of a correction goes with this.
-constexpr double kReleaseTime_s = 0.074;
+constexpr double kReleaseTime_s = 0.0812;
 
 /// The share that is left of a spring's stiffness, by the way over that where it is far.
 double slackened(double way) { return 1.0 / std::sqrt(1.0 + way * way); }

@@ -17,8 +17,8 @@ constexpr double kMargin_m = 0.0002;
 constexpr double kSoon_s = 0.0635;
 constexpr double kMostSoon_m = 0.00999;
 constexpr double kPullRest_m = 0.00028;
-constexpr double kPullFade_m = 0.00918;
-constexpr double kPullTime_s = 0.0757;
+constexpr double kPullFade_m = 0.0098;
+constexpr double kPullTime_s = 0.0775;
 
 /// How a pull grows with the tracked skin's depth, as it soon will be.
 struct PullGrowth {
@@ -26,12 +26,12 @@ struct PullGrowth {
   double full_m;
   double stiffness;
 };
-constexpr PullGrowth kPartPull{-0.00593, 0.0171, 5.31e4};
+constexpr PullGrowth kPartPull{-0.00593, 0.0171, 4.94e4};
 /// The palm takes the whole hand with it.
-constexpr PullGrowth kPalmPull{kPartPull.start_m, kPartPull.full_m, 1.237e5};
+constexpr PullGrowth kPalmPull{kPartPull.start_m, kPartPull.full_m, 1.313e5};
 /// While any skin is pressed in, what is nearest to the surface is kept within reach of a touch: a
 /// hand that leaves does not take off before the person's own does.
-constexpr PullGrowth kTouchPull{0.0, 0.0137, 3.17e5};
+constexpr PullGrowth kTouchPull{0.0, 0.0147, 2.81e5};
 constexpr double kHighestTouch_m = 0.0012;
 
 // Skin lands on a cushion and leaves it by the same way: at rest so thick, and thicker by the way
@@ -46,7 +46,7 @@ constexpr double kGrowthOfLift = 2.15;
 constexpr double kBraking_mpss = 1.72;
 constexpr double kBrakeDamping = 1.65e4;
 /// What lands after the skin that is nearest to the surface may take so many times its way.
-constexpr double kLaterWay = 3.0;
+constexpr double kLaterWay = 2.86;
 /// What could come no nearer than this to where it brakes needs no row, by `row_reach_m`.
 constexpr double kRowReachOfBrake = 0.5;
 
@@ -114,9 +114,10 @@ Vec3 velocity_of(const TouchSearch& search, const FleshPoint& point) {
 /// A pad that may be near the surface.
 struct NearPad {
   const FleshPad& pad;
-  Vec3 middle = Vec3::Zero();    ///< drawn
-  Vec3 way = Vec3::Zero();       ///< drawn, since the last frame
-  Vec3 velocity = Vec3::Zero();  ///< tracked
+  Vec3 middle = Vec3::Zero();        ///< drawn
+  Vec3 middle_there = Vec3::Zero();  ///< the same in the object's frame
+  Vec3 way = Vec3::Zero();           ///< drawn, since the last frame
+  Vec3 velocity = Vec3::Zero();      ///< tracked
   double landing_mps = 0.0;
 };
 
@@ -214,7 +215,7 @@ double add_pad(const TouchSearch& search, const Landing& landing, const NearPad&
                const PadMemory& known, const PosedHand& posed, PatchTouches& patches,
                std::vector<ContactRow>& rows) {
   const Placement& placement = search.object.placement();
-  const PadPlane plane = bent_plane(known, placement.to_local(near.middle), placement.scale);
+  const PadPlane plane = bent_plane(known, near.middle_there, placement.scale);
   const Vec3 surface_point = placement.to_world(plane.point);
   const Vec3 normal = placement.pose.rotation * plane.normal;
   const Cushion cushion = cushion_under(search, near, normal);
@@ -317,15 +318,17 @@ PatchTouches find_touches(const TouchSearch& search, const PosedHand& posed,
     const double farthest_reach_m = radius_m + std::max(farthest_m, pull_m);
     if (known.free_m - memory.travel_m > farthest_reach_m) continue;
     NearPad near{pad, posed.flesh.position(pad.middle)};
-    const Vec3 middle = placement.to_local(near.middle);
-    if (left_of(search.object, middle, memory.travel_m, known) > farthest_reach_m) continue;
+    near.middle_there = placement.to_local(near.middle);
+    if (left_of(search.object, near.middle_there, memory.travel_m, known) > farthest_reach_m)
+      continue;
     near.velocity = velocity_of(search, pad.middle);
     near.landing_mps = landing_part(search, near.velocity);
     if (search.before) near.way = near.middle - search.before->position(pad.middle);
     const double near_m =
         reach_of_rows(search, landing, near.landing_mps, landing_part(search, near.way));
     const double reach_m = radius_m + std::max(near_m, pull_m);
-    if (!find_plane(search.object, palm, middle, reach_m, memory.travel_m, known)) continue;
+    if (!find_plane(search.object, palm, near.middle_there, reach_m, memory.travel_m, known))
+      continue;
     const double lowest_m = add_pad(search, landing, near, known, posed, patches, memory.rows);
     known.same_m = plane_serves(known, lowest_m);
     // One that faces away is not looked at again until it could have come what its skin lacks.
