@@ -17,6 +17,9 @@ constexpr double kMostSame_m = 0.0015;
 constexpr double kSameOfGap = 0.2;
 /// A pad that is too far is not looked at again until it could have come so much nearer.
 constexpr double kFarSlack_m = 0.02;
+/// And then from so much farther out: the larger a ball is that rests on the surface, the farther
+/// along the surface a pad can go in it.
+constexpr double kFartherOut_m = 0.02;
 /// At an edge the nearest point's normal turns in a moment. A pad's follows over about this way.
 constexpr double kTurningWay_m = 0.0026;
 /// Cosine between the normals of two sides of a sheet, at most; well below that of a box's faces.
@@ -85,7 +88,27 @@ std::optional<PadPlane> wall_before(const Object& object, const Vec3& palm, cons
 }
 
 double away_of(const Object& object, const Vec3& middle, const PadMemory& known) {
-  return object.placement().scale * (middle - known.middle).norm();
+  return object.placement().scale * (middle - known.seen_from).norm();
+}
+
+/// The surface point nearest to `from`, no farther than `search_m`, and how clear it is there.
+std::optional<SurfacePoint> look(const Object& object, const Vec3& from, double search_m,
+                                 PadMemory& known) {
+  const double scale = object.placement().scale;
+  const std::optional<SurfacePoint> nearest =
+      object.surface().closest_point(from, search_m / scale, known.hint);
+  known.seen_from = from;
+  known.clearance_m = nearest ? scale * nearest->signed_distance : search_m;
+  return nearest;
+}
+
+/// Whether a pad that was too far still is, as seen from farther out.
+bool is_still_far(const Object& object, const Vec3& middle, double reach_m, double travel_m,
+                  PadMemory& known) {
+  if (known.outward.isZero()) return false;
+  const Vec3 from = middle + kFartherOut_m / object.placement().scale * known.outward;
+  (void)look(object, from, kFartherOut_m + reach_m + kFarSlack_m, known);
+  return left_of(object, middle, travel_m, known) > reach_m;
 }
 
 }  // namespace
@@ -102,16 +125,17 @@ bool find_plane(const Object& object, const std::optional<Vec3>& palm, const Vec
   const double away_m = away_of(object, middle, known);
   if (known.clearance_m - away_m > reach_m) return false;
   if (known.plane && away_m <= known.same_m) return true;
-  const double scale = object.placement().scale;
-  const double search_m = reach_m + kFarSlack_m;
-  const std::optional<SurfacePoint> nearest =
-      object.surface().closest_point(middle, search_m / scale, known.hint);
-  known.middle = middle;
   std::optional<PadPlane> before = std::exchange(known.plane, std::nullopt);
-  known.clearance_m = nearest ? scale * nearest->signed_distance : search_m;
+  if (is_still_far(object, middle, reach_m, travel_m, known)) return false;
+  const double search_m = reach_m + kFarSlack_m;
+  const std::optional<SurfacePoint> nearest = look(object, middle, search_m, known);
   known.free_m = known.clearance_m + travel_m;
-  if (!nearest || known.clearance_m > reach_m) return false;
+  const bool far = known.clearance_m > reach_m;
+  known.outward = Vec3::Zero();
+  if (nearest && far) known.outward = (middle - nearest->point).normalized();
+  if (!nearest || far) return false;
   known.plane = plane_at(*nearest, middle);
+  const double scale = object.placement().scale;
   if (!before && palm) before = wall_before(object, *palm, middle);
   if (!before) return true;
   const std::optional<SurfacePoint> same =

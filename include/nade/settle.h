@@ -39,11 +39,12 @@ struct PadPlane {
 struct PadMemory {
   SurfaceHint hint;
   std::optional<PadPlane> plane;
-  Vec3 middle = Vec3::Zero();  ///< where it was looked for last; object frame
-  double curvature = 0.0;      ///< there, along the way that the pad went, 1/m; convex above 0
-  double same_m = 0.0;         ///< the plane serves within this of there
-  double clearance_m = 0.0;    ///< there; more where its skin faces away
-  double free_m = 0.0;         ///< what was left of that when last seen, plus `travel_m` then
+  Vec3 seen_from = Vec3::Zero();  ///< where it was looked from last; object frame
+  Vec3 outward = Vec3::Zero();    ///< unit, off the surface, where it was too far; zero elsewhere
+  double curvature = 0.0;         ///< there, along the way that the pad went, 1/m; convex above 0
+  double same_m = 0.0;            ///< the plane serves within this of there
+  double clearance_m = 0.0;       ///< there; more where its skin faces away
+  double free_m = 0.0;            ///< what was left of that when last seen, plus `travel_m` then
 };
 
 /// What is drawn to the surface: each part, and the skin that is nearest to it, whichever it is.
