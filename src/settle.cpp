@@ -183,11 +183,13 @@ void Settling::start() {
     forget_slide(memory_);
     memory_.geometric.setZero();
     memory_.velocity.fill(Vec3::Zero());
-    memory_.height_m = 0.0;
+    memory_.height_m = memory_.nearest_m = memory_.deepest_m = 0.0;
     memory_.edge = 0.0;
     break_motion(memory_.unrest);
   }
   search_.seconds = seconds_;
+  search_.nearest_m = memory_.nearest_m;
+  search_.deepest_m = memory_.deepest_m;
   search_.sink_m = options_.softness_m * followed(memory_.height_m, options_.softness_depth_m);
   push_ = memory_.push;
   correction_ = memory_.last.correction;
@@ -324,6 +326,7 @@ void Settling::remember_contact() {
   }
   memory_.height_m = std::max(0.0, push_.dot(correction_.palm.shift));
   memory_.nearest_m = patches_[kNearestSkin].gap_m;
+  memory_.deepest_m = patches_[kNearestSkin].depth_m;
   memory_.push = push_;
   memory_.normal = push_.isZero() ? push_ : normal_;
 }

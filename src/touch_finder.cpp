@@ -42,6 +42,9 @@ constexpr double kLandingTime_s = 0.0885;
 constexpr double kFlat_m = 0.0002;
 /// Under skin that has landed it may grow by so many times what that is drawn above the tracked.
 constexpr double kGrowthOfLift = 2.15;
+/// All of the hand's cushions together lift its lowest skin no higher than the deepest tracked skin
+/// would lie on its own; other skin higher, by so many times what it is higher.
+constexpr double kHigherThanNearest = 1.6;
 /// Drawn skin that comes down by itself brakes no less than this, as stiff as a damper.
 constexpr double kBraking_mpss = 1.72;
 constexpr double kBrakeDamping = 1.65e4;
@@ -82,23 +85,28 @@ struct Cushion {
   double thickness_m = 0.0;
   double lift_m = 0.0;      ///< of the drawn pad over the tracked one
   double approach_m = 0.0;  ///< of the drawn pad, since the last frame
+  double nearest_m = 0.0;   ///< of all drawn skin to the surface, in the last frame
+  double deepest_m = 0.0;   ///< of all tracked skin, in the last frame
 
-  /// How far skin is held off the surface that would be `gap_m` away from it. From the cushion's
-  /// thickness above the surface to as far below, the tracked skin is brought to rest at an even
+  /// How far skin is held off the surface that is tracked at such a height above it. From the
+  /// cushion's thickness above the surface to as far below it is brought to rest at an even
   /// deceleration. Higher up that fades: skin may be drawn lower than it is tracked.
-  [[nodiscard]] double at(double gap_m) const {
-    const double way_m = gap_m - lift_m + thickness_m;
+  [[nodiscard]] double at(double height_m) const {
+    const double way_m = height_m + thickness_m;
     if (way_m <= 0.0) return 0.0;
     if (way_m > 2.0 * thickness_m) return std::max(0.0, 2.0 * thickness_m - 0.5 * way_m);
     return way_m * way_m / (4.0 * thickness_m);
   }
 
-  /// The same for drawn skin with so much room above the surface. Skin that is drawn no higher than
-  /// it is tracked has landed already: under it the cushion does not grow.
+  /// The same for drawn skin that would be `gap_m` away from the surface, with so much room above
+  /// it. Skin that is drawn no higher than it is tracked has landed already: under it the cushion
+  /// does not grow. Nor does a cushion lift a hand off that rests on other skin.
   [[nodiscard]] double under(double gap_m, double room_m) const {
     const double before_m = room_m + approach_m;
-    const double most_m = before_m + kThinnest_m + kGrowthOfLift * std::max(0.0, lift_m);
-    return std::clamp(at(gap_m), kFlat_m, std::max(kFlat_m, most_m));
+    const double grown_m = before_m + kThinnest_m + kGrowthOfLift * std::max(0.0, lift_m);
+    const double higher_m = kHigherThanNearest * std::max(0.0, before_m - nearest_m);
+    const double most_m = std::min(grown_m, at(-deepest_m) + higher_m);
+    return std::clamp(at(gap_m - lift_m), kFlat_m, std::max(kFlat_m, most_m));
   }
 };
 
@@ -126,14 +134,14 @@ struct NearPad {
 Cushion cushion_under(const TouchSearch& search, const NearPad& near, const Vec3& normal) {
   const double speed_mps = std::min(std::abs(normal.dot(near.velocity)), near.landing_mps);
   const Vec3 lift = near.middle - search.tracked.position(near.pad.middle);
-  return {cushion_thickness(speed_mps), normal.dot(lift), -normal.dot(near.way)};
+  return {cushion_thickness(speed_mps), normal.dot(lift), -normal.dot(near.way), search.nearest_m,
+          search.deepest_m};
 }
 
 /// How drawn skin that comes down by itself is brought to rest, at an even deceleration.
 class Landing {
  public:
-  /// `nearest_m` is `SettleMemory::nearest_m`.
-  Landing(const TouchSearch& search, double nearest_m) : search_(search), nearest_m_(nearest_m) {
+  explicit Landing(const TouchSearch& search) : search_(search) {
     if (!search.before) return;
     longest_ = search.push.isZero() ? 1.0 : kLaterWay;
     cushioned_m_ =
@@ -163,7 +171,7 @@ class Landing {
   /// Times the cushion's thickness. What is nearest to the surface has to touch it in time; the
   /// rest of a hand that touches may land more softly.
   [[nodiscard]] double way_from(double before_m) const {
-    return longest_ - (longest_ - 1.0) * std::clamp(nearest_m_ / before_m, 0.0, 1.0);
+    return longest_ - (longest_ - 1.0) * std::clamp(search_.nearest_m / before_m, 0.0, 1.0);
   }
   [[nodiscard]] double slowing(double deceleration_mpss) const {
     return deceleration_mpss * search_.seconds * search_.seconds;
@@ -173,7 +181,6 @@ class Landing {
   }
 
   const TouchSearch& search_;
-  double nearest_m_;
   double longest_ = 0.0;      ///< way; 0 on a hand found anew, which comes from nowhere
   double cushioned_m_ = 0.0;  ///< what a frame slows skin down that lands on its cushion alone
 };
@@ -301,7 +308,7 @@ PatchTouches find_touches(const TouchSearch& search, const PosedHand& posed,
   for (const Vec3& velocity : search.velocity) {
     fastest_mps = std::max(fastest_mps, landing_part(search, velocity));
   }
-  const Landing landing(search, memory.nearest_m);
+  const Landing landing(search);
   const double farthest_m =
       reach_of_rows(search, landing, fastest_mps, farthest_way(search, posed));
   const Placement& placement = search.object.placement();

@@ -48,6 +48,8 @@ struct TouchSearch {
   PullStrengths strengths{};
   JointVectors velocity{};                              ///< of the tracked joints, world, smoothed
   double speed_mps = 0.0;                               ///< of the tracked hand's fastest joint
+  double nearest_m = 0.0;                               ///< `SettleMemory::nearest_m`
+  double deepest_m = 0.0;                               ///< `SettleMemory::deepest_m`
   Vec3 push = Vec3::Zero();                             ///< unit, or zero in the air
   double row_reach_m = 0.0;                             ///< skin nearer than this gets a row
   double sink_m = 0.0;                                  ///< so far in is still out

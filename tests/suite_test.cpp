@@ -77,6 +77,24 @@ TEST(Suite, EveryCaseOfTheQuickSuitePresses) {
   }
 }
 
+/// At the end of this stroke the hand leaves the ball's far side: the heel is out of it already,
+/// the thumb still in it, and what lands or leaves below the heel must not take the hand off.
+TEST(Suite, TheHandLeavesTheSmallestBallNoSoonerThanThePersonsOwn) {
+  use_built_assets();
+  const Result<DrawnHands> hands = load_drawn_hands();
+  ASSERT_TRUE(hands.ok()) << hands.error().message;
+  const std::vector<ComparedMethod> methods = library_methods();
+  const auto nade = std::ranges::find(methods, "nade", &ComparedMethod::name);
+  const std::vector<SuiteCase> cases = suite_cases({});
+  const auto stroke = std::ranges::find(cases, "sphere:0.06 line 0.1 m/s 20 mm", &SuiteCase::name);
+  ASSERT_TRUE(nade != methods.end() && stroke != cases.end());
+  const Result<SuiteObject> object = load_suite_object(stroke->object);
+  ASSERT_TRUE(object.ok()) << object.error().message;
+  const Result<CaseRecording> recording = make_recording(*stroke, *object);
+  ASSERT_TRUE(recording.ok()) << recording.error().message;
+  EXPECT_EQ(score(*stroke, *recording, *object, *hands, *nade).metrics.contact_ratio, 1.0);
+}
+
 TEST(Suite, UnknownObjectsAndClipsAreNamed) {
   EXPECT_FALSE(load_suite_object("cat").ok());
   SuiteCase clip;

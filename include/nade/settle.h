@@ -122,6 +122,7 @@ struct SettleMemory {
   Vec3 push = Vec3::Zero();          ///< unit, the way the object pushes; zero in the air
   double height_m = 0.0;             ///< of the drawn hand over the tracked one along `push`
   double nearest_m = 0.0;            ///< from the drawn skin that is nearest to the surface to it
+  double deepest_m = 0.0;            ///< of the tracked skin below the surface, the deepest
   Vec3 normal = Vec3::Zero();        ///< of the surface at the tracked palm; zero in the air
   SurfaceHint under_palm;            ///< where that was found
   Vec3 carried = Vec3::Zero();       ///< along the surface, from what was stroked so far
