@@ -129,8 +129,7 @@ bool find_plane(const Object& object, const std::optional<Vec3>& palm, const Vec
   if (is_still_far(object, middle, reach_m, travel_m, known)) return false;
   const double search_m = reach_m + kFarSlack_m;
   const std::optional<SurfacePoint> nearest = look(object, middle, search_m, known);
-  known.free_m = known.clearance_m + travel_m;
-  const bool far = known.clearance_m > reach_m;
+  const bool far = left_of(object, middle, travel_m, known) > reach_m;
   known.outward = Vec3::Zero();
   if (nearest && far) known.outward = (middle - nearest->point).normalized();
   if (!nearest || far) return false;
