@@ -238,7 +238,8 @@ std::uint32_t closest_kernel(const TreeNode* nodes, const TriangleBlock* blocks,
   std::uint32_t current = 0;
   while (true) {
     if ((current & kLeafBit) != 0) {
-      nearest_in_block(blocks, current & ~kLeafBit, point, best);
+      const std::uint32_t block = current & ~kLeafBit;
+      if (block != query.hint_block) nearest_in_block(blocks, block, point, best);
     } else {
       const TreeNode& node = nodes[current];
       const Float8 squared = box_squared(node, point);
