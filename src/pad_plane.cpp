@@ -50,8 +50,8 @@ void turn_slowly(const PadPlane& before, double way_m, PadPlane& now) {
   now.normal = (before.normal + share * (now.normal - before.normal)).normalized();
 }
 
-/// Takes in how the normal turned on the way since the last look, metres in the object's frame. A
-/// way shorter than the least says little.
+/// Takes in how the normal turned on the way since the last look. A way shorter than the least says
+/// little.
 void learn_curvature(const PadPlane& before, const Vec3& way, const PadPlane& now,
                      PadMemory& known) {
   const double trust = way.squaredNorm() / (way.squaredNorm() + kLeastWay_m * kLeastWay_m);
@@ -61,95 +61,89 @@ void learn_curvature(const PadPlane& before, const Vec3& way, const PadPlane& no
 
 /// Across a thin wall the nearest point may be on the other side. The point on the side that a
 /// plane is on, if that is another.
-std::optional<SurfacePoint> on_side_of(const Object& object, const PadPlane& plane,
+std::optional<SurfacePoint> on_side_of(const ScaledSurface& object, const PadPlane& plane,
                                        const SurfacePoint& nearest, const Vec3& middle,
-                                       double search, SurfaceHint& hint) {
+                                       double search_m, SurfaceHint& hint) {
   const double behind = plane.normal.dot(plane.point - middle);
   if (behind <= 0.0 || plane.normal.dot(nearest.normal) > kOtherSide) return std::nullopt;
-  const double outside = behind + kJustOutside_m / object.placement().scale;
-  return object.surface().closest_point(middle + outside * plane.normal, search, hint);
+  return object.closest_point(middle + (behind + kJustOutside_m) * plane.normal, search_m, hint);
 }
 
 /// Where a thin wall is between the palm and a pad: its side that the palm is on.
-std::optional<PadPlane> wall_before(const Object& object, const Vec3& palm, const Vec3& middle) {
-  const Surface& surface = object.surface();
-  const double scale = object.placement().scale;
+std::optional<PadPlane> wall_before(const ScaledSurface& object, const Vec3& palm,
+                                    const Vec3& middle) {
   const double length = (middle - palm).norm();
   if (length < 1e-9) return std::nullopt;
   const Vec3 way = (middle - palm) / length;
-  const std::optional<RayHit> in = surface.first_hit({palm, way, length});
+  const std::optional<RayHit> in = object.first_hit({palm, way, length});
   if (!in || in->from_inside) return std::nullopt;
-  const double begin = in->distance + kJustOutside_m / scale;
+  const double begin = in->distance + kJustOutside_m;
   const double rest = std::max(0.0, length - begin);
-  const std::optional<RayHit> out = surface.first_hit({palm + begin * way, way, rest});
+  const std::optional<RayHit> out = object.first_hit({palm + begin * way, way, rest});
   const double thickness = std::abs(in->normal.dot(way)) * (out ? out->distance : rest);
-  if (thickness > kThickestWall_m / scale) return std::nullopt;
+  if (thickness > kThickestWall_m) return std::nullopt;
   return PadPlane{middle, in->point, in->normal};
 }
 
-double away_of(const Object& object, const Vec3& middle, const PadMemory& known) {
-  return object.placement().scale * (middle - known.seen_from).norm();
+double away_of(const Vec3& middle, const PadMemory& known) {
+  return (middle - known.seen_from).norm();
 }
 
 /// The surface point nearest to `from`, no farther than `search_m`, and how clear it is there.
-std::optional<SurfacePoint> look(const Object& object, const Vec3& from, double search_m,
+std::optional<SurfacePoint> look(const ScaledSurface& object, const Vec3& from, double search_m,
                                  PadMemory& known) {
-  const double scale = object.placement().scale;
-  const std::optional<SurfacePoint> nearest =
-      object.surface().closest_point(from, search_m / scale, known.hint);
+  const std::optional<SurfacePoint> nearest = object.closest_point(from, search_m, known.hint);
   known.seen_from = from;
-  known.clearance_m = nearest ? scale * nearest->signed_distance : search_m;
+  known.clearance_m = nearest ? nearest->signed_distance : search_m;
   return nearest;
 }
 
 /// Whether a pad that was too far still is, as seen from farther out.
-bool is_still_far(const Object& object, const Vec3& middle, double reach_m, double travel_m,
+bool is_still_far(const ScaledSurface& object, const Vec3& middle, double reach_m, double travel_m,
                   PadMemory& known) {
   if (known.outward.isZero()) return false;
-  const Vec3 from = middle + kFartherOut_m / object.placement().scale * known.outward;
-  (void)look(object, from, kFartherOut_m + reach_m + kFarSlack_m, known);
-  return left_of(object, middle, travel_m, known) > reach_m;
+  (void)look(object, middle + kFartherOut_m * known.outward, kFartherOut_m + reach_m + kFarSlack_m,
+             known);
+  return left_of(middle, travel_m, known) > reach_m;
 }
 
 }  // namespace
 
-double left_of(const Object& object, const Vec3& middle, double travel_m,
-               PadMemory& known) noexcept {
-  const double left_m = known.clearance_m - away_of(object, middle, known);
+double left_of(const Vec3& middle, double travel_m, PadMemory& known) noexcept {
+  const double left_m = known.clearance_m - away_of(middle, known);
   known.free_m = left_m + travel_m;
   return left_m;
 }
 
-bool find_plane(const Object& object, const std::optional<Vec3>& palm, const Vec3& middle,
+bool find_plane(const ScaledSurface& object, const std::optional<Vec3>& palm, const Vec3& middle,
                 double reach_m, double travel_m, PadMemory& known) noexcept {
-  const double away_m = away_of(object, middle, known);
+  const double away_m = away_of(middle, known);
   if (known.clearance_m - away_m > reach_m) return false;
   if (known.plane && away_m <= known.same_m) return true;
   std::optional<PadPlane> before = std::exchange(known.plane, std::nullopt);
   if (is_still_far(object, middle, reach_m, travel_m, known)) return false;
   const double search_m = reach_m + kFarSlack_m;
   const std::optional<SurfacePoint> nearest = look(object, middle, search_m, known);
-  const bool far = left_of(object, middle, travel_m, known) > reach_m;
+  const bool far = left_of(middle, travel_m, known) > reach_m;
   known.outward = Vec3::Zero();
   if (nearest && far) known.outward = (middle - nearest->point).normalized();
   if (!nearest || far) return false;
   known.plane = plane_at(*nearest, middle);
-  const double scale = object.placement().scale;
   if (!before && palm) before = wall_before(object, *palm, middle);
   if (!before) return true;
   const std::optional<SurfacePoint> same =
-      on_side_of(object, *before, *nearest, middle, search_m / scale, known.hint);
+      on_side_of(object, *before, *nearest, middle, search_m, known.hint);
   if (same) known.plane = PadPlane{middle, same->point, same->normal};
-  const Vec3 way = scale * (middle - before->middle);
+  const Vec3 way = middle - before->middle;
   turn_slowly(*before, way.norm(), *known.plane);
   learn_curvature(*before, way, *known.plane, known);
   return true;
 }
 
-PadPlane bent_plane(const PadMemory& known, const Vec3& middle, double scale) noexcept {
+PadPlane bent_plane(const PadMemory& known, const Vec3& middle) noexcept {
   PadPlane plane = *known.plane;
-  const Vec3 way = scale * along_surface(middle - plane.middle, plane.normal);
-  plane.point -= 0.5 * known.curvature * way.squaredNorm() / scale * plane.normal;
+  const Vec3 way = along_surface(middle - plane.middle, plane.normal);
+  plane.point -= 0.5 * known.curvature * way.squaredNorm() * plane.normal;
   plane.normal = (plane.normal + known.curvature * way).normalized();
   return plane;
 }

@@ -67,9 +67,12 @@ constexpr double kPalmThickness_m = 0.02;
 /// One frame's work.
 class Settling {
  public:
-  Settling(const HandPose& tracked, const HandFlesh& flesh, double scale, const Object& object,
-           double seconds, const SettleOptions& options, SettleMemory& memory)
+  /// `seen` is the tracked hand as seen from home.
+  Settling(const HandPose& tracked, const HandPose& seen, const HandFlesh& flesh, double scale,
+           const ScaledSurface& object, double seconds, const SettleOptions& options,
+           SettleMemory& memory)
       : object_(object),
+        seen_(seen),
         options_(options),
         memory_(memory),
         model_(measure_model(tracked, scale)),
@@ -112,7 +115,6 @@ class Settling {
 
  private:
   void start();
-  [[nodiscard]] HandPose carried(const HandPose& hand) const;
   void find_motion();
   void start_outside();
   void find_strengths();
@@ -125,7 +127,8 @@ class Settling {
   void remember_frame(const HandPose& drawn);
   SettledHand finish(const HandPose& posed);
 
-  const Object& object_;
+  const ScaledSurface& object_;
+  const HandPose& seen_;
   const SettleOptions& options_;
   SettleMemory& memory_;
   HandModel model_;
@@ -134,9 +137,7 @@ class Settling {
   double seconds_;       ///< as it counts
 
   bool fresh_ = false;
-  /// Of the tracked hand since the last frame, in the world or against the object, whichever is
-  /// more.
-  double motion_m_ = 0.0;
+  double motion_m_ = 0.0;   ///< of the tracked hand since the last frame
   JointVectors coasted_{};  ///< where the drawn joints would go on to
   Correction last_;
   Correction correction_;
@@ -146,32 +147,22 @@ class Settling {
   bool touches_ = false;
 };
 
-/// A hand of the last frame, carried along with the object since then.
-HandPose Settling::carried(const HandPose& hand) const {
-  return moved(hand, object_.placement().pose * memory_.last.object.pose.inverse());
-}
-
 /// How the tracked hand moves.
 void Settling::find_motion() {
   const SettledFrame& last = memory_.last;
   if (!last.tracked) return;
-  const HandPose& now = model_.tracked;
-  const HandPose along = carried(*last.tracked);
-  motion_m_ = std::max(largest_motion(*last.tracked, now), largest_motion(along, now));
+  motion_m_ = largest_motion(*last.tracked, model_.tracked);
   const double follow = memory_.fresh ? 1.0 : followed(seconds_, kVelocityTime_s);
-  follow_velocity(along, now, object_.placement().pose.rotation, seconds_, follow,
-                  memory_.velocity);
+  follow_velocity(*last.tracked, model_.tracked, seconds_, follow, memory_.velocity);
 }
 
 void Settling::start() {
-  const Placement& placement = object_.placement();
   const std::uint64_t shape = object_.surface().shape();
   const bool same_surface = memory_.surface == &object_.surface();
   const HandPose& tracked = model_.tracked;
   find_motion();
   fresh_ = !memory_.last.tracked || motion_m_ > kTeleport_m;
-  if (fresh_ || !same_surface || placement.scale != memory_.last.object.scale ||
-      shape != memory_.shape) {
+  if (fresh_ || !same_surface || object_.scale() != memory_.scale || shape != memory_.shape) {
     for (PadMemory& pad : memory_.pads) {
       pad.plane.reset();
       pad.clearance_m = pad.free_m = 0.0;
@@ -202,20 +193,18 @@ void Settling::start() {
   correction_ = after(HandFreedoms::Zero());  // into the range of this frame's pose
   last_ = correction_;
   last_.palm.shift += follow_lag(seconds_, memory_);
-  for (std::size_t i = 0; i < kJointCount; ++i) {
-    search_.velocity[i] = placement.pose.rotation * memory_.velocity[i];
-  }
+  search_.velocity = memory_.velocity;
   if (fresh_) return;
   // Most often it goes on as it went: then the surface needs to be looked at only once.
   correction_ = after(step_between(memory_.before, memory_.last.correction, search_.frame));
-  search_.before = pose_flesh(carried(memory_.last.drawn), model_.scale);
+  search_.before = pose_flesh(memory_.last.drawn, model_.scale);
   search_.speed_mps = motion_m_ / seconds_;
-  coasted_ = coasted_joints(memory_.last, memory_.drift, tracked, placement, seconds_);
+  coasted_ = coasted_joints(memory_.last, memory_.drift, tracked, seconds_);
 }
 
 /// How strongly the object may draw this hand.
 void Settling::find_strengths() {
-  follow_unrest(model_.tracked, since_last_s_, memory_.unrest);
+  follow_unrest(seen_, since_last_s_, memory_.unrest);
   const FingerCurls curls = curls_of(model_);
   if (memory_.push.isZero()) memory_.curl_at_touch = curls;
   search_.strengths = pull_strengths(memory_.unrest, curls, memory_.curl_at_touch, memory_.edge);
@@ -319,8 +308,8 @@ void Settling::remember_contact() {
     forget_slide(memory_);
   } else {
     const Vec3& palm = model_.tracked[Joint::palm].position;
-    const Vec3 before = object_.placement().to_world(
-        memory_.last.object.to_local((*memory_.last.tracked)[Joint::palm].position));
+    const double grown = object_.scale() / memory_.scale;
+    const Vec3 before = grown * (*memory_.last.tracked)[Joint::palm].position;
     remember_slide(correction_.palm.shift, along_surface(palm - before, normal_), normal_,
                    options_.friction, memory_);
   }
@@ -332,7 +321,7 @@ void Settling::remember_contact() {
 }
 
 void Settling::remember_frame(const HandPose& drawn) {
-  const SettledFrame now{model_.tracked, drawn, correction_, object_.placement()};
+  const SettledFrame now{model_.tracked, drawn, correction_};
   if (fresh_) memory_.drift.fill(Vec3::Zero());  // it did not come from anywhere
   if (!fresh_) memory_.drift = drift_between(memory_.last, now, seconds_);
   memory_.before = fresh_ ? now.correction : memory_.last.correction;
@@ -340,6 +329,7 @@ void Settling::remember_frame(const HandPose& drawn) {
   memory_.fresh = fresh_;
   memory_.surface = &object_.surface();
   memory_.shape = object_.surface().shape();
+  memory_.scale = object_.scale();
 }
 
 SettledHand Settling::finish(const HandPose& posed) {
@@ -373,10 +363,12 @@ SettledHand settle_hand(const HandPose& tracked, const HandFlesh& flesh, double 
                         SettleMemory& memory) noexcept {
   if (memory.surface != &object.surface()) memory.last.tracked.reset();
   if (!memory.last.tracked) memory.home = object.placement().pose;
-  const HandPose hand = seen_from(memory.home, tracked);
-  const Object there = seen_from(memory.home, object);
-  return brought_back(memory.home, tracked,
-                      Settling(hand, flesh, rounded(scale), there, seconds, options, memory).run());
+  const HandPose seen = seen_from(memory.home, tracked);
+  const Pose place = seen_from(memory.home, object.placement().pose);
+  const HandPose hand = moved(seen, place.inverse());
+  const ScaledSurface surface(object);
+  Settling settling(hand, seen, flesh, rounded(scale), surface, seconds, options, memory);
+  return brought_back(memory.home * place, tracked, settling.run());
 }
 
 }  // namespace nade

@@ -29,20 +29,39 @@ HandPose seen_from(const Pose& home, const HandPose& hand) noexcept {
   return result;
 }
 
-Object seen_from(const Pose& home, const Object& object) noexcept {
-  const Placement& placement = object.placement();
-  return Object(object.surface(), {on_grid(home.inverse() * placement.pose), placement.scale});
+Pose seen_from(const Pose& home, const Pose& object) noexcept {
+  return on_grid(home.inverse() * object);
 }
 
-SettledHand brought_back(const Pose& home, const HandPose& tracked, SettledHand settled) noexcept {
-  settled.hand = settled.corrected ? moved(settled.hand, home) : tracked;
+std::optional<RayHit> ScaledSurface::first_hit(const Ray& ray) const noexcept {
+  std::optional<RayHit> hit =
+      surface_.first_hit({ray.origin / scale_, ray.direction, ray.max_distance / scale_});
+  if (!hit) return std::nullopt;
+  hit->distance *= scale_;
+  hit->point *= scale_;
+  return hit;
+}
+
+std::optional<SurfacePoint> ScaledSurface::closest_point(const Vec3& query, double max_distance_m,
+                                                         SurfaceHint& hint) const noexcept {
+  std::optional<SurfacePoint> found =
+      surface_.closest_point(query / scale_, max_distance_m / scale_, hint);
+  if (!found) return std::nullopt;
+  found->point *= scale_;
+  found->signed_distance *= scale_;
+  return found;
+}
+
+SettledHand brought_back(const Pose& object, const HandPose& tracked,
+                         SettledHand settled) noexcept {
+  settled.hand = settled.corrected ? moved(settled.hand, object) : tracked;
   for (std::optional<PartContact>& contact : settled.contacts) {
     if (!contact) continue;
     for (Vec3* point : {&contact->ray_origin, &contact->surface_point, &contact->target}) {
-      *point = home.apply(*point);
+      *point = object.apply(*point);
     }
     for (Vec3* way : {&contact->ray_direction, &contact->normal, &contact->skin_direction}) {
-      *way = home.rotation * *way;
+      *way = object.rotation * *way;
     }
   }
   return settled;

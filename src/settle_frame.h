@@ -1,23 +1,42 @@
 #pragma once
 
+#include <optional>
+
 #include "nade/settle.h"
 
 namespace nade {
 
-// A hand is settled in a frame that stands still: the object's, as it was when the hand was found.
-// What comes in is rounded there. Hand and object moved together then give the same answer, also
-// where the smallest difference would grow: deep in a rough object, or with fingers on both sides
-// of a sheet.
+// A hand is settled in the object's frame, whatever the object does; lengths are the world's. What
+// comes in is rounded before, as seen from home, where the object was when the hand was found. Hand
+// and object moved together then give the same answer, also where the smallest difference would
+// grow: deep in a rough object, or with fingers on both sides of a sheet.
 
-/// `hand` as seen from the pose `home`, rounded to 60 nm.
+/// As seen from the pose `home`, rounded to 60 nm.
 [[nodiscard]] HandPose seen_from(const Pose& home, const HandPose& hand) noexcept;
-/// The same of an object; its scale stays.
-[[nodiscard]] Object seen_from(const Pose& home, const Object& object) noexcept;
-/// And of the hand's size over the flesh's.
+[[nodiscard]] Pose seen_from(const Pose& home, const Pose& object) noexcept;
+/// The hand's size over the flesh's, rounded.
 [[nodiscard]] double rounded(double scale) noexcept;
 
-/// What became there of a tracked hand, in the world; the tracked one itself where nothing did.
-[[nodiscard]] SettledHand brought_back(const Pose& home, const HandPose& tracked,
+/// An object's surface in the object's frame, and in the world's lengths.
+class ScaledSurface {
+ public:
+  explicit ScaledSurface(const Object& object)
+      : surface_(object.surface()), scale_(object.placement().scale) {}
+
+  [[nodiscard]] const Surface& surface() const { return surface_; }
+  [[nodiscard]] double scale() const { return scale_; }
+  [[nodiscard]] std::optional<RayHit> first_hit(const Ray& ray) const noexcept;
+  [[nodiscard]] std::optional<SurfacePoint> closest_point(const Vec3& query, double max_distance_m,
+                                                          SurfaceHint& hint) const noexcept;
+
+ private:
+  const Surface& surface_;
+  double scale_;
+};
+
+/// What became of a tracked hand at such an object, in the world; the tracked one itself where
+/// nothing did.
+[[nodiscard]] SettledHand brought_back(const Pose& object, const HandPose& tracked,
                                        SettledHand settled) noexcept;
 
 }  // namespace nade

@@ -9,19 +9,18 @@ constexpr double kHoldStiffness = 1e5;
 /// The time constant with which a drawn joint takes on the tracked one's velocity.
 constexpr double kCoastTime_s = 0.069;
 
-/// From a tracked joint to the drawn one, in the object's frame.
+/// From a tracked joint to the drawn one.
 Vec3 offset_of(const SettledFrame& frame, std::size_t joint) {
-  return frame.object.pose.rotation.conjugate() *
-         (frame.drawn.joints[joint].position - frame.tracked->joints[joint].position);
+  return frame.drawn.joints[joint].position - frame.tracked->joints[joint].position;
 }
 
 }  // namespace
 
-void follow_velocity(const HandPose& from, const HandPose& to, const Quat& frame, double seconds,
-                     double share, JointVectors& velocity) noexcept {
+void follow_velocity(const HandPose& from, const HandPose& to, double seconds, double share,
+                     JointVectors& velocity) noexcept {
   for (std::size_t i = 0; i < kJointCount; ++i) {
     const Vec3 way = to.joints[i].position - from.joints[i].position;
-    velocity[i] += share * (frame.conjugate() * (way / seconds) - velocity[i]);
+    velocity[i] += share * (way / seconds - velocity[i]);
   }
 }
 
@@ -35,13 +34,11 @@ JointVectors drift_between(const SettledFrame& before, const SettledFrame& now,
 }
 
 JointVectors coasted_joints(const SettledFrame& last, const JointVectors& drift,
-                            const HandPose& tracked, const Placement& object,
-                            double seconds) noexcept {
+                            const HandPose& tracked, double seconds) noexcept {
   const double faded_s = seconds * std::exp(-seconds / kCoastTime_s);
   JointVectors coasted;
   for (std::size_t i = 0; i < kJointCount; ++i) {
-    const Vec3 offset = offset_of(last, i) + faded_s * drift[i];
-    coasted[i] = tracked.joints[i].position + object.pose.rotation * offset;
+    coasted[i] = tracked.joints[i].position + offset_of(last, i) + faded_s * drift[i];
   }
   return coasted;
 }

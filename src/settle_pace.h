@@ -9,22 +9,20 @@
 
 namespace nade {
 
-// How fast a hand goes from frame to frame. World frame.
+// How fast a hand goes from frame to frame.
 
-/// Takes a share of each joint's velocity from one pose to the next into a smoothed one, m/s, in
-/// the axes of `frame`.
-void follow_velocity(const HandPose& from, const HandPose& to, const Quat& frame, double seconds,
-                     double share, JointVectors& velocity) noexcept;
+/// Takes a share of each joint's velocity from one pose to the next into a smoothed one, m/s.
+void follow_velocity(const HandPose& from, const HandPose& to, double seconds, double share,
+                     JointVectors& velocity) noexcept;
 
-/// How the drawn joints came away from the tracked ones in a frame, m/s; object frame.
+/// How the drawn joints came away from the tracked ones in a frame, m/s.
 [[nodiscard]] JointVectors drift_between(const SettledFrame& before, const SettledFrame& now,
                                          double seconds) noexcept;
 
 /// Where the drawn joints are if each keeps its way from the tracked one, and what changed of that
-/// in the last frame goes on, a little slower. World frame.
+/// in the last frame goes on, a little slower.
 [[nodiscard]] JointVectors coasted_joints(const SettledFrame& last, const JointVectors& drift,
-                                          const HandPose& tracked, const Placement& object,
-                                          double seconds) noexcept;
+                                          const HandPose& tracked, double seconds) noexcept;
 
 /// Gives the hand inertia: springs as stiff as that, 1/m^2, from every joint of `posed` to where it
 /// would coast to. `frame` is that of the step.

@@ -60,14 +60,13 @@ constexpr double kAboutNearest_m = 0.004;
 constexpr double kStretch = 1.3;
 
 /// Adds how far the hand has gone against the object since the last look.
-void count_travel(const Object& object, const HandPose& hand, SettleMemory& memory) {
+void count_travel(const PosedFlesh& flesh, SettleMemory& memory) {
   double farthest = 0.0;
   for (std::size_t i = 0; i < kJointCount; ++i) {
-    const Vec3 joint = object.placement().to_local(hand.joints[i].position);
-    farthest = std::max(farthest, (joint - memory.joints[i]).squaredNorm());
-    memory.joints[i] = joint;
+    farthest = std::max(farthest, (flesh.origin[i] - memory.joints[i]).squaredNorm());
   }
-  memory.travel_m += kStretch * object.placement().scale * std::sqrt(farthest);
+  memory.joints = flesh.origin;
+  memory.travel_m += kStretch * std::sqrt(farthest);
 }
 
 /// How thick a cushion skin needs that goes to the surface or from it at this speed.
@@ -122,10 +121,9 @@ Vec3 velocity_of(const TouchSearch& search, const FleshPoint& point) {
 /// A pad that may be near the surface.
 struct NearPad {
   const FleshPad& pad;
-  Vec3 middle = Vec3::Zero();        ///< drawn
-  Vec3 middle_there = Vec3::Zero();  ///< the same in the object's frame
-  Vec3 way = Vec3::Zero();           ///< drawn, since the last frame
-  Vec3 velocity = Vec3::Zero();      ///< tracked
+  Vec3 middle = Vec3::Zero();    ///< drawn
+  Vec3 way = Vec3::Zero();       ///< drawn, since the last frame
+  Vec3 velocity = Vec3::Zero();  ///< tracked
   double landing_mps = 0.0;
 };
 
@@ -221,23 +219,21 @@ ContactRow* add_row(const TouchSearch& search, const PosedHand& posed, const Pat
 double add_pad(const TouchSearch& search, const Landing& landing, const NearPad& near,
                const PadMemory& known, const PosedHand& posed, PatchTouches& patches,
                std::vector<ContactRow>& rows) {
-  const Placement& placement = search.object.placement();
-  const PadPlane plane = bent_plane(known, near.middle_there, placement.scale);
-  const Vec3 surface_point = placement.to_world(plane.point);
-  const Vec3 normal = placement.pose.rotation * plane.normal;
+  const PadPlane plane = bent_plane(known, near.middle);
+  const Vec3& normal = plane.normal;
   const Cushion cushion = cushion_under(search, near, normal);
   const FleshPad& pad = near.pad;
   PatchTouch lowest;
   ContactRow* braking = nullptr;
   for (std::size_t k = pad.first; k < pad.first + pad.count; ++k) {
     const FleshPoint& point = search.flesh.skin[k];
-    const double gap_m = normal.dot(posed.flesh.position(point) - surface_point);
+    const double gap_m = normal.dot(posed.flesh.position(point) - plane.point);
     const double cushion_m = cushion.under(gap_m, room_above(search, gap_m));
-    PatchTouch touch{gap_m,  cushion.lift_m - gap_m, &point,   surface_point,
+    PatchTouch touch{gap_m,  cushion.lift_m - gap_m, &point,   plane.point,
                      normal, known.curvature,        cushion_m};
     join(touch, patches[kNearestSkin]);
     if (pad.part) {
-      touch.depth_m = normal.dot(surface_point - search.tracked.position(point));
+      touch.depth_m = normal.dot(plane.point - search.tracked.position(point));
       join(touch, patches[index_of(*pad.part)]);
     }
     const bool near_surface = gap_m <= search.row_reach_m + cushion_m;
@@ -302,7 +298,7 @@ double farthest_way(const TouchSearch& search, const PosedHand& posed) {
 PatchTouches find_touches(const TouchSearch& search, const PosedHand& posed,
                           SettleMemory& memory) noexcept {
   memory.rows.clear();
-  count_travel(search.object, posed.hand, memory);
+  count_travel(posed.flesh, memory);
   PatchTouches patches;
   double fastest_mps = 0.0;
   for (const Vec3& velocity : search.velocity) {
@@ -311,9 +307,8 @@ PatchTouches find_touches(const TouchSearch& search, const PosedHand& posed,
   const Landing landing(search);
   const double farthest_m =
       reach_of_rows(search, landing, fastest_mps, farthest_way(search, posed));
-  const Placement& placement = search.object.placement();
   std::optional<Vec3> palm;
-  if (!search.before) palm = placement.to_local(posed.hand[Joint::palm].position);
+  if (!search.before) palm = posed.hand[Joint::palm].position;
   for (std::size_t i = 0; i < search.flesh.pads.size(); ++i) {
     const FleshPad& pad = search.flesh.pads[i];
     // Of a part, only what is about the nearest to the surface matters.
@@ -325,17 +320,14 @@ PatchTouches find_touches(const TouchSearch& search, const PosedHand& posed,
     const double farthest_reach_m = radius_m + std::max(farthest_m, pull_m);
     if (known.free_m - memory.travel_m > farthest_reach_m) continue;
     NearPad near{pad, posed.flesh.position(pad.middle)};
-    near.middle_there = placement.to_local(near.middle);
-    if (left_of(search.object, near.middle_there, memory.travel_m, known) > farthest_reach_m)
-      continue;
+    if (left_of(near.middle, memory.travel_m, known) > farthest_reach_m) continue;
     near.velocity = velocity_of(search, pad.middle);
     near.landing_mps = landing_part(search, near.velocity);
     if (search.before) near.way = near.middle - search.before->position(pad.middle);
     const double near_m =
         reach_of_rows(search, landing, near.landing_mps, landing_part(search, near.way));
     const double reach_m = radius_m + std::max(near_m, pull_m);
-    if (!find_plane(search.object, palm, near.middle_there, reach_m, memory.travel_m, known))
-      continue;
+    if (!find_plane(search.object, palm, near.middle, reach_m, memory.travel_m, known)) continue;
     const double lowest_m = add_pad(search, landing, near, known, posed, patches, memory.rows);
     known.same_m = plane_serves(known, lowest_m);
     // One that faces away is not looked at again until it could have come what its skin lacks.

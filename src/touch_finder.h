@@ -6,6 +6,7 @@
 
 #include "nade/settle.h"
 #include "posed_hand.h"
+#include "settle_frame.h"
 
 namespace nade {
 
@@ -14,7 +15,7 @@ namespace nade {
 inline constexpr std::size_t kMostSkinRows = 1280;
 inline constexpr std::size_t kMostContactRows = kMostSkinRows + kPulls + 1 + kDigitCount;
 
-/// A patch of skin, drawn and tracked, against the surface near it. World frame.
+/// A patch of skin, drawn and tracked, against the surface near it.
 struct PatchTouch {
   double gap_m = std::numeric_limits<double>::infinity();
   double depth_m = -std::numeric_limits<double>::infinity();  ///< of the tracked patch
@@ -38,15 +39,15 @@ using PullStrengths = std::array<double, kPulls>;
 /// What a frame's rounds look for, and where.
 struct TouchSearch {
   const HandFlesh& flesh;
-  const Object& object;
+  const ScaledSurface& object;
   PosedFlesh tracked;
-  /// The last frame's drawn hand, carried along with the object; none for a hand found anew.
+  /// The last frame's drawn hand; none for a hand found anew.
   std::optional<PosedFlesh> before;
   double scale = 1.0;            ///< of the tracked hand over the flesh
   double seconds = 0.0;          ///< since the last frame
   PullStrengths pulls_before{};  ///< `SettleMemory::pulls` of the last frame
   PullStrengths strengths{};
-  JointVectors velocity{};                              ///< of the tracked joints, world, smoothed
+  JointVectors velocity{};                              ///< of the tracked joints, smoothed
   double speed_mps = 0.0;                               ///< of the tracked hand's fastest joint
   double nearest_m = 0.0;                               ///< `SettleMemory::nearest_m`
   double deepest_m = 0.0;                               ///< `SettleMemory::deepest_m`

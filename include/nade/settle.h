@@ -28,7 +28,7 @@ struct SettleOptions {
   VisibleFriction friction;
 };
 
-/// The local plane that stands in for the surface near a pad. Object frame.
+/// The local plane that stands in for the surface near a pad.
 struct PadPlane {
   Vec3 middle = Vec3::Zero();  ///< of the pad, for which it was found
   Vec3 point = Vec3::Zero();
@@ -39,7 +39,7 @@ struct PadPlane {
 struct PadMemory {
   SurfaceHint hint;
   std::optional<PadPlane> plane;
-  Vec3 seen_from = Vec3::Zero();  ///< where it was looked from last; object frame
+  Vec3 seen_from = Vec3::Zero();  ///< where it was looked from last
   Vec3 outward = Vec3::Zero();    ///< unit, off the surface, where it was too far; zero elsewhere
   double curvature = 0.0;         ///< there, along the way that the pad went, 1/m; convex above 0
   double same_m = 0.0;            ///< the plane serves within this of there
@@ -86,7 +86,6 @@ struct SettledFrame {
   std::optional<HandPose> tracked;
   HandPose drawn;
   Correction correction;
-  Placement object;
 };
 
 /// One for each joint.
@@ -94,7 +93,7 @@ using JointVectors = std::array<Vec3, kJointCount>;
 
 /// How a tracked hand's joints accelerate, and how much of that is new in each sample: tremor, and
 /// the tracker's errors. What the object adds to a restless motion is less to be seen than on a
-/// smooth one. World frame. The means are over about a third of a second of the root mean square
+/// smooth one. The means are over about a third of a second of the root mean square
 /// over the joints, and of square roots, so that one sudden turn counts for little.
 struct Unrest {
   int samples = 0;                ///< of this motion, up to 4: enough for all of it
@@ -110,15 +109,16 @@ struct Unrest {
 /// Each finger's middle and last flexion together, radians; 0 for the thumb.
 using FingerCurls = std::array<double, kDigitCount>;
 
-/// What settle_hand remembers of a hand from frame to frame, and room to work in. Its world is
-/// where the object was when the hand was found.
+/// What settle_hand remembers of a hand from frame to frame, and room to work in. All of it is in
+/// the object's frame, and in the world's lengths; but the hand's unrest is as seen from `home`.
 struct SettleMemory {
-  Pose home;  ///< that place, in the world
+  Pose home;  ///< where the object was when the hand was found, in the world
   SettledFrame last;
   Correction before;                 ///< that of the frame before it
   bool fresh = false;                ///< whether the hand was found anew in it
   const Surface* surface = nullptr;  ///< the last frame's; only its address counts
   std::uint64_t shape = 0;           ///< the surface's, in the last frame
+  double scale = 1.0;                ///< and the object's
   Vec3 push = Vec3::Zero();          ///< unit, the way the object pushes; zero in the air
   double height_m = 0.0;             ///< of the drawn hand over the tracked one along `push`
   double nearest_m = 0.0;            ///< from the drawn skin that is nearest to the surface to it
@@ -136,11 +136,10 @@ struct SettleMemory {
   std::array<double, kPulls> pulls{};  ///< times the full pull on a calm hand, in the last frame
   std::vector<PadMemory> pads;
   std::vector<ContactRow> rows;
-  /// Of the tracked joints against the object, smoothed, m/s; object frame.
-  JointVectors velocity{};
-  JointVectors drift{};   ///< velocity of the drawn joints over the tracked, m/s; object frame
-  JointVectors joints{};  ///< of the hand as looked at last; object frame
-  double travel_m = 0.0;  ///< the sum of what its farthest joint went from look to look
+  JointVectors velocity{};  ///< of the tracked joints against the object, smoothed, m/s
+  JointVectors drift{};     ///< velocity of the drawn joints over the tracked, m/s
+  JointVectors joints{};    ///< of the hand as looked at last
+  double travel_m = 0.0;    ///< the sum of what its farthest joint went from look to look
 };
 
 /// A memory with room for a hand's pads; settle_hand allocates nothing then.
