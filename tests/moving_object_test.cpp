@@ -172,5 +172,26 @@ TEST(MovingObject, AHandAtRestRidesOnWhatRisesTurnsAndGrows) {
   }
 }
 
+/// Together they may go and turn as they like: the drawn hand lies on the object as it does on one
+/// that stands still.
+TEST(MovingObject, AHandThatGoesAlongWithItsObjectLiesAsOnOneAtRest) {
+  const SphereSurface ball(0.15);
+  HandCorrector at_rest(test::settling());
+  HandCorrector on_the_way(test::settling());
+  double farthest_m = 0.0;
+  for (int i = 0; i < 270; ++i) {
+    const double time_s = i * kFrame_s;
+    const Vec3 palm(0.05 * std::sin(2.0 * time_s), 0.15 + 0.01 * std::cos(2.0 * time_s), 0.02);
+    const HandPose tracked = test::placed_hand(test::generic_size_hand(), palm, Quat::Identity());
+    const Quat turn(Eigen::AngleAxisd(0.8 * time_s, Vec3(0.3, 0.5, 0.8).normalized()));
+    const Pose place{{0.1 * time_s, 0.0, 0.05 * time_s}, turn};
+    const HandPose still = at_rest.update(tracked, Object(ball), i * kFrame_ns).pose;
+    const HandPose along =
+        on_the_way.update(moved(tracked, place), Object(ball, {place, 1.0}), i * kFrame_ns).pose;
+    farthest_m = std::max(farthest_m, largest_motion(still, moved(along, place.inverse())));
+  }
+  EXPECT_LT(farthest_m, 1e-4);
+}
+
 }  // namespace
 }  // namespace nade
