@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "ramps.h"
+#include "settle_normal.h"
 
 namespace nade {
 namespace {
@@ -21,7 +22,7 @@ constexpr double kFarSlack_m = 0.02;
 /// along the surface a pad can go in it.
 constexpr double kFartherOut_m = 0.02;
 /// At an edge the nearest point's normal turns in a moment. A pad's follows over about this way.
-constexpr double kTurningWay_m = 0.0026;
+constexpr double kTurningWay_m = 0.0026071;
 /// Cosine between the normals of two sides of a sheet, at most; well below that of a box's faces.
 constexpr double kOtherSide = -0.5;
 /// From a wall's side, what is looked for from so far outside is on it.
@@ -29,19 +30,8 @@ constexpr double kJustOutside_m = 0.0005;
 /// Through a thicker wall no hand found anew is drawn back.
 constexpr double kThickestWall_m = 0.02;
 /// A pad's curvature is learned from ways of about this length on; no sharper.
-constexpr double kLeastWay_m = 0.0018;
-constexpr double kSharpest = 100.0;
-
-/// The plane through the surface point nearest to a pad's middle. The surface's own normal, which
-/// runs smoothly over a mesh's faces; at an edge or a tip the direction to the middle.
-PadPlane plane_at(const SurfacePoint& nearest, const Vec3& middle) {
-  PadPlane plane{middle, nearest.point, nearest.normal};
-  if (!(nearest.signed_distance > 1e-4)) return plane;
-  const Vec3 outward = (middle - nearest.point).normalized();
-  const double smooth = smoothstep(0.95, 0.995, outward.dot(nearest.normal));
-  plane.normal = (smooth * nearest.normal + (1.0 - smooth) * outward).normalized();
-  return plane;
-}
+constexpr double kLeastWay_m = 0.0017914;
+constexpr double kSharpest = 103.65;
 
 /// Lets the normal follow from where it was at the last look; across a thin sheet it turns at once.
 void turn_slowly(const PadPlane& before, double way_m, PadPlane& now) {
@@ -128,7 +118,7 @@ bool find_plane(const ScaledSurface& object, const std::optional<Vec3>& palm, co
   known.outward = Vec3::Zero();
   if (nearest && far) known.outward = (middle - nearest->point).normalized();
   if (!nearest || far) return false;
-  known.plane = plane_at(*nearest, middle);
+  known.plane = PadPlane{middle, nearest->point, outward_normal(*nearest, middle)};
   if (!before && palm) before = wall_before(object, *palm, middle);
   if (!before) return true;
   const std::optional<SurfacePoint> same =

@@ -7,6 +7,7 @@
 #include "ramps.h"
 #include "settle_forces.h"
 #include "settle_frame.h"
+#include "settle_normal.h"
 #include "settle_pace.h"
 #include "settle_slide.h"
 #include "settle_solver.h"
@@ -26,23 +27,20 @@ constexpr double kRowReachOfMotion = 0.33;
 // How fast a correction may change where nothing pushes: so many times the tracked hand's own
 // motion, and a little more, so that a hand at rest is released as well.
 constexpr double kShiftRate = 2.0;
-constexpr double kTurnRate = 0.939;
+constexpr double kTurnRate = 1.0135;
 constexpr double kBendRate = 0.646;
-constexpr double kFreeRate_mps = 0.003;
+constexpr double kFreeRate_mps = 0.0030187;
+/// Fingers come down no slower than this, also when the hand keeps still.
+constexpr double kRestRate_mps = 0.01;
 constexpr double kWallStiffness = 1e5;
 /// A joint's mass: a spring of this over the square of the frame's seconds keeps it going. Less in
 /// the air, where the hand comes back to the tracked one.
 constexpr double kInertia = 1.72;
-constexpr double kInertiaInAir = 1.14;
-/// An edge is remembered for about so long.
-constexpr double kEdgeTime_s = 0.29;
+constexpr double kInertiaInAir = 1.3;
 /// What the tracked joints do against the object is smoothed over this time.
 constexpr double kVelocityTime_s = 0.016;
 /// The direction of the object's push is smoothed over this time.
-constexpr double kPushTime_s = 0.263;
-/// Cosines between that and a face's normal: from another face, and surely from the same.
-constexpr double kOtherFace = 0.05;
-constexpr double kSameFace = 0.3;
+constexpr double kPushTime_s = 0.20506;
 
 /// A hand that moves farther from one frame to the next was lost and found.
 constexpr double kTeleport_m = 0.15;
@@ -86,7 +84,7 @@ class Settling {
     const int rounds = fresh_ ? kFirstRounds : kRounds;
     // No joint goes farther than the tracked hand's fastest, and a little, unless the object pushes
     // or pulls harder than this holds it back.
-    const double most_m = motion_m_ + kFreeRate_mps * seconds_;
+    const double most_m = std::max(motion_m_ + kFreeRate_mps * seconds_, kRestRate_mps * seconds_);
     PosedHand posed = pose_hand(model_, correction_);
     for (int round = 0; round < rounds; ++round) {
       patches_ = find_touches(search_, posed, memory_);
@@ -118,7 +116,6 @@ class Settling {
   void find_motion();
   void start_outside();
   void find_strengths();
-  [[nodiscard]] Vec3 find_normal();
   [[nodiscard]] Correction after(const HandFreedoms& step) const;
   [[nodiscard]] SettleProblem problem_at(const PosedHand& posed, int round) const;
   [[nodiscard]] bool is_pressed() const;
@@ -175,7 +172,6 @@ void Settling::start() {
     memory_.geometric.setZero();
     memory_.velocity.fill(Vec3::Zero());
     memory_.height_m = memory_.nearest_m = memory_.deepest_m = 0.0;
-    memory_.edge = 0.0;
     break_motion(memory_.unrest);
   }
   search_.seconds = seconds_;
@@ -187,7 +183,7 @@ void Settling::start() {
   search_.row_reach_m = fresh_ ? kDeepest_m : kRowReach_m + kRowReachOfMotion * motion_m_;
   if (fresh_) start_outside();
   search_.push = push_;
-  normal_ = find_normal();
+  normal_ = normal_under_palm(object_, tracked[Joint::palm], push_, motion_m_, seconds_, memory_);
   search_.frame = surface_frame(normal_, tracked[Joint::palm].rotation);
   find_strengths();
   correction_ = after(HandFreedoms::Zero());  // into the range of this frame's pose
@@ -207,7 +203,7 @@ void Settling::find_strengths() {
   follow_unrest(seen_, since_last_s_, memory_.unrest);
   const FingerCurls curls = curls_of(model_);
   if (memory_.push.isZero()) memory_.curl_at_touch = curls;
-  search_.strengths = pull_strengths(memory_.unrest, curls, memory_.curl_at_touch, memory_.edge);
+  search_.strengths = pull_strengths(memory_.unrest, curls, memory_.curl_at_touch);
   // On a hand found anew no pull has to come first.
   search_.pulls_before = fresh_ ? search_.strengths : memory_.pulls;
 }
@@ -222,19 +218,6 @@ void Settling::start_outside() {
   correction_.palm.shift = nearest->point - palm + model_.scale * kPalmThickness_m * push_;
 }
 
-/// Where the object pushes from another face than the one nearest to the palm, that way counts: the
-/// hand goes over an edge.
-Vec3 Settling::find_normal() {
-  memory_.edge *= std::exp(-seconds_ / kEdgeTime_s);
-  if (push_.isZero()) return push_;
-  const std::optional<SurfacePoint> nearest =
-      object_.closest_point(model_.tracked[Joint::palm].position, kDeepest_m, memory_.under_palm);
-  if (!nearest) return push_;
-  const double share = smoothstep(kOtherFace, kSameFace, nearest->normal.dot(push_));
-  memory_.edge = std::max(memory_.edge, 1.0 - share);
-  return (push_ + share * (nearest->normal - push_)).normalized();
-}
-
 Correction Settling::after(const HandFreedoms& step) const {
   return after_step(correction_, step, search_.frame, model_.ranges);
 }
@@ -245,14 +228,14 @@ SettleProblem Settling::problem_at(const PosedHand& posed, int round) const {
 
   HandFreedoms away = step_between({}, correction_, search_.frame);
   away.head<3>() -= search_.frame.transpose() * (memory_.carried + memory_.drawn_lag);
-  problem.springs.add(stiffness_of_pose(away), -away);
+  const bool in_air = !fresh_ && memory_.push.isZero();
+  problem.springs.add(in_air ? stiffness_in_air(away) : stiffness_of_pose(away), -away);
   // The forces on a hand found anew are not yet those that it will rest with.
   if (!fresh_) problem.springs.add(memory_.geometric, HandFreedoms::Zero());
 
   const HandFreedoms changed = step_between(last_, correction_, search_.frame);
   if (!fresh_) {
-    const bool in_air = memory_.push.isZero();
-    problem.springs.add((in_air ? damping_in_air() : damping(memory_.edge)) / seconds_, -changed);
+    problem.springs.add((in_air ? damping_in_air() : damping()) / seconds_, -changed);
     const double inertia = in_air ? kInertiaInAir : kInertia;
     add_inertia(coasted_, inertia / (seconds_ * seconds_), posed, search_.frame, problem.springs);
   }
@@ -277,7 +260,7 @@ SettleProblem Settling::problem_at(const PosedHand& posed, int round) const {
   const double slack_m = kFreeRate_mps * seconds_;
   const HandFreedoms rate =
       steps_of(kShiftRate * motion_m_ + slack_m, kTurnRate * motion_m_ + slack_m,
-               kBendRate * motion_m_ + slack_m);
+               std::max(kBendRate * motion_m_ + slack_m, kRestRate_mps * seconds_));
   problem.rate.low = -rate - changed;
   problem.rate.high = rate - changed;
   return problem;
@@ -339,7 +322,7 @@ SettledHand Settling::finish(const HandPose& posed) {
   settled.hand = is_none(correction_) ? model_.tracked : posed;
   remember_contact();
   remember_frame(settled.hand);
-  settled.touches = touches_;
+  settled.touches = touches_ || is_pressed();
   settled.corrected = !is_none(correction_);
   for (std::size_t i = 0; i < kPartCount; ++i) {
     const PatchTouch& part = patches_[i];

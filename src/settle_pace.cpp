@@ -5,9 +5,9 @@
 namespace nade {
 namespace {
 
-constexpr double kHoldStiffness = 1e5;
+constexpr double kHoldStiffness = 2.5e5;
 /// The time constant with which a drawn joint takes on the tracked one's velocity.
-constexpr double kCoastTime_s = 0.069;
+constexpr double kCoastTime_s = 0.059194;
 
 /// From a tracked joint to the drawn one.
 Vec3 offset_of(const SettledFrame& frame, std::size_t joint) {

@@ -16,9 +16,9 @@ constexpr int kMostSteps = 16;
 constexpr int kMostSearches = 24;
 /// A change of every freedom by less than this, in metres or radians, is none.
 constexpr double kSmallestChange = 1e-8;
-constexpr double kCushionStiffness = 2.66e4;
+constexpr double kCushionStiffness = 24143.0;
 /// A pull grows with the gap as far as this, and is the same from there on.
-constexpr double kPullGrowth_m = 0.00159;
+constexpr double kPullGrowth_m = 0.0016114;
 
 double along(const ContactRow& row, const HandFreedoms& change) {
   double sum = row.wrist.dot(change.head<6>());

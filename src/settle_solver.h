@@ -35,7 +35,7 @@ struct SettleProblem {
 };
 
 /// The stiffness of a surface, as the rows see it: 1/m^2 for a cost of 1 a radian squared.
-inline constexpr double kSurfaceStiffness = 5.6e6;
+inline constexpr double kSurfaceStiffness = 1.2e7;
 
 /// The step of least cost: a convex problem, so there is one. Newton's method on a piecewise
 /// quadratic, a fixed number of steps at the most; the nearer `from` is, the fewer.

@@ -9,10 +9,12 @@ namespace nade {
 /// or a turn goes, the softer its spring, so that a deep press neither bores into the object nor
 /// keeps the hand from lying flat on it.
 [[nodiscard]] HandFreedoms stiffness_of_pose(const HandFreedoms& away) noexcept;
+/// Of a hand that has left the object: it comes back sooner.
+[[nodiscard]] HandFreedoms stiffness_in_air(const HandFreedoms& away) noexcept;
 
 /// What it costs to change the correction: the stiffness of those springs, times the seconds in
-/// which each freedom follows them. `edge` is `SettleMemory::edge`.
-[[nodiscard]] HandFreedoms damping(double edge) noexcept;
+/// which each freedom follows them.
+[[nodiscard]] HandFreedoms damping() noexcept;
 [[nodiscard]] HandFreedoms damping_in_air() noexcept;
 
 }  // namespace nade

@@ -108,18 +108,19 @@ FingerCurls curls_of(const HandModel& model) noexcept {
 }
 
 PullStrengths pull_strengths(const Unrest& unrest, const FingerCurls& curls,
-                             const FingerCurls& at_touch, double edge) noexcept {
-  const double share = unrest_share(unrest) * (1.0 - edge);
+                             const FingerCurls& at_touch) noexcept {
+  const double share = unrest_share(unrest);
   PullStrengths strengths;
   strengths[kNearestSkin] = std::pow(kRestlessPull, share);
-  double most_curled = 1.0;
+  double open_fingers = 0.0;
   for (std::size_t d = 0; d < kDigitCount; ++d) {
     const double open = openness(curls[d], at_touch[d]);
-    most_curled = std::min(most_curled, open);
+    if (digit_at(d) != Digit::thumb) open_fingers += open;
     strengths[index_of(part_of(digit_at(d)))] = std::pow(kRestlessPull, share * open);
   }
-  // What draws the palm down would open the finger that holds it up.
-  strengths[index_of(Part::palm)] = std::pow(kRestlessPull, share * most_curled);
+  // What draws the palm down would open the fingers that hold it up.
+  constexpr double kFingers = kDigitCount - 1;
+  strengths[index_of(Part::palm)] = std::pow(kRestlessPull, share * open_fingers / kFingers);
   return strengths;
 }
 

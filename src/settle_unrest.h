@@ -21,9 +21,8 @@ void break_motion(Unrest& unrest) noexcept;
 /// How the tracked fingers are curled.
 [[nodiscard]] FingerCurls curls_of(const HandModel& model) noexcept;
 
-/// `curls` and `at_touch` are how the tracked fingers are curled, and were when the hand touched;
-/// `edge` is `SettleMemory::edge`.
+/// `curls` and `at_touch` are how the tracked fingers are curled, and were when the hand touched.
 [[nodiscard]] PullStrengths pull_strengths(const Unrest& unrest, const FingerCurls& curls,
-                                           const FingerCurls& at_touch, double edge) noexcept;
+                                           const FingerCurls& at_touch) noexcept;
 
 }  // namespace nade

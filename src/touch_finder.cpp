@@ -17,8 +17,8 @@ constexpr double kMargin_m = 0.0002;
 constexpr double kSoon_s = 0.0635;
 constexpr double kMostSoon_m = 0.00999;
 constexpr double kPullRest_m = 0.00028;
-constexpr double kPullFade_m = 0.0098;
-constexpr double kPullTime_s = 0.0775;
+constexpr double kPullFade_m = 0.0059458;
+constexpr double kPullTime_s = 0.07522;
 
 /// How a pull grows with the tracked skin's depth, as it soon will be.
 struct PullGrowth {
@@ -26,32 +26,32 @@ struct PullGrowth {
   double full_m;
   double stiffness;
 };
-constexpr PullGrowth kPartPull{-0.00593, 0.0171, 4.94e4};
+constexpr PullGrowth kPartPull{-0.0062146, 0.017795, 51130.0};
 /// The palm takes the whole hand with it.
-constexpr PullGrowth kPalmPull{kPartPull.start_m, kPartPull.full_m, 1.313e5};
+constexpr PullGrowth kPalmPull{kPartPull.start_m, kPartPull.full_m, 1.5033e5};
 /// While any skin is pressed in, what is nearest to the surface is kept within reach of a touch: a
 /// hand that leaves does not take off before the person's own does.
-constexpr PullGrowth kTouchPull{0.0, 0.0147, 2.81e5};
+constexpr PullGrowth kTouchPull{0.0, 0.014162, 2.846e5};
 constexpr double kHighestTouch_m = 0.0012;
 
 // Skin lands on a cushion and leaves it by the same way: at rest so thick, and thicker by the way
 // that it goes in so long. It never goes quite flat.
-constexpr double kThinnest_m = 0.0004;
-constexpr double kThickest_m = 0.0109;
+constexpr double kThinnest_m = 0.00042105;
+constexpr double kThickest_m = 0.0116;
 constexpr double kLandingTime_s = 0.0885;
-constexpr double kFlat_m = 0.0002;
+constexpr double kFlat_m = 0.00019355;
 /// Under skin that has landed it may grow by so many times what that is drawn above the tracked.
-constexpr double kGrowthOfLift = 2.15;
+constexpr double kGrowthOfLift = 1.6498;
 /// All of the hand's cushions together lift its lowest skin no higher than the deepest tracked skin
 /// would lie on its own; other skin higher, by so many times what it is higher.
-constexpr double kHigherThanNearest = 1.6;
+constexpr double kHigherThanNearest = 1.15;
 /// Drawn skin that comes down by itself brakes no less than this, as stiff as a damper.
-constexpr double kBraking_mpss = 1.72;
-constexpr double kBrakeDamping = 1.65e4;
+constexpr double kBraking_mpss = 1.5427;
+constexpr double kBrakeDamping = 18583.0;
 /// What lands after the skin that is nearest to the surface may take so many times its way.
-constexpr double kLaterWay = 2.86;
+constexpr double kLaterWay = 1.75;
 /// What could come no nearer than this to where it brakes needs no row, by `row_reach_m`.
-constexpr double kRowReachOfBrake = 0.5;
+constexpr double kRowReachOfBrake = 0.4997;
 
 /// Of a part, skin that is higher by more than this than what else of it was looked at does not
 /// matter.
@@ -264,6 +264,15 @@ double pull_strength(const TouchSearch& search, const PatchTouch& patch, const P
   return before + followed(search.seconds, kPullTime_s) * (strength - before);
 }
 
+/// How far drawn skin is from the surface itself. At an edge or a tip that is farther than from the
+/// plane that keeps out all of its pad.
+double away_from_surface(const TouchSearch& search, const PosedHand& posed, const PatchTouch& patch,
+                         SurfaceHint& hint) {
+  const Vec3 skin = posed.flesh.position(*patch.point);
+  const auto nearest = search.object.closest_point(skin, kPullReach_m, hint);
+  return nearest ? std::max(patch.gap_m, nearest->signed_distance) : patch.gap_m;
+}
+
 void add_pulls(const TouchSearch& search, const PosedHand& posed, const PatchTouches& patches,
                SettleMemory& memory) {
   for (std::size_t i = 0; i < kPulls; ++i) {
@@ -277,7 +286,9 @@ void add_pulls(const TouchSearch& search, const PosedHand& posed, const PatchTou
         memory.rows.emplace_back(motion_along(posed, *patch.point, patch.normal, search.frame));
     row.kind = RowKind::draw_near;
     const double held_m = nearest ? std::min(patch.cushion_m, kHighestTouch_m) : patch.cushion_m;
-    row.gap_m = patch.gap_m + search.sink_m - kPullRest_m - held_m;
+    const double away_m =
+        nearest ? away_from_surface(search, posed, patch, memory.under_nearest) : patch.gap_m;
+    row.gap_m = away_m + search.sink_m - kPullRest_m - held_m;
     row.curvature = patch.curvature;
     row.stiffness = memory.pulls[i] * growth.stiffness;
   }

@@ -31,7 +31,7 @@ using PatchTouches = std::array<PatchTouch, kPulls>;
 inline constexpr std::size_t kNearestSkin = kPartCount;
 
 /// From farther than this a patch is not drawn to the surface.
-inline constexpr double kPullReach_m = 0.04;
+inline constexpr double kPullReach_m = 0.050038;
 
 /// How many times as strong as on a calm hand each pull is.
 using PullStrengths = std::array<double, kPulls>;

@@ -91,6 +91,20 @@ TEST(SettleUnrest, OneCurledFingerStaysCurled) {
   EXPECT_GT(curl_of(measure_angles(drawn)[index_of(Digit::index)]), 2.0);
 }
 
+/// Nor does it hold up the palm of an open hand, which was drawn as weakly as a fist's.
+TEST(SettleUnrest, OneCurledFingerDoesNotHoldThePalmUp) {
+  HandAngles angles = test::relaxed_angles();
+  for (const Digit digit : {Digit::thumb, Digit::index}) {
+    for (std::size_t hinge = 0; hinge < kHingeCount; ++hinge) {
+      angles[index_of(digit)][hinge].flexion =
+          std::min(0.6, range_of_motion(digit, hinge).flexion_max);
+    }
+  }
+  const HandPose hand = test::generic_size_hand(Handedness::right, angles);
+  const HandPose drawn = drawn_at_rest(pressed_hand(0.03, 0.3, Vec3::Zero(), hand), true);
+  EXPECT_LT(drawn[Joint::palm].position.y() - generic_skin_depths()[Part::palm], 0.0045);
+}
+
 /// Frames that are all the same for minutes, as of a tracker that is stuck: what was smoothed over
 /// them sank until it was divided by nothing.
 TEST(SettleUnrest, AHandThatKeepsStillForMinutesStaysWhereItIs) {

@@ -123,15 +123,15 @@ struct SettleMemory {
   double height_m = 0.0;             ///< of the drawn hand over the tracked one along `push`
   double nearest_m = 0.0;            ///< from the drawn skin that is nearest to the surface to it
   double deepest_m = 0.0;            ///< of the tracked skin below the surface, the deepest
-  Vec3 normal = Vec3::Zero();        ///< of the surface at the tracked palm; zero in the air
+  Vec3 normal = Vec3::Zero();        ///< of the surface under the tracked palm; zero in the air
   SurfaceHint under_palm;            ///< where that was found
+  SurfaceHint under_nearest;         ///< and what is under the nearest drawn skin
   Vec3 carried = Vec3::Zero();       ///< along the surface, from what was stroked so far
   Vec3 lag = Vec3::Zero();           ///< along the surface, by friction
   Vec3 drawn_lag = Vec3::Zero();     ///< the same, smoothed
   bool slips = false;
   Unrest unrest;
-  FingerCurls curl_at_touch{};  ///< of the tracked hand; in the air, now
-  double edge = 0.0;            ///< 1 while the hand goes over one, fading after it
+  FingerCurls curl_at_touch{};                    ///< of the tracked hand; in the air, now
   HandFreedoms geometric = HandFreedoms::Zero();  ///< stiffness, of the last round's contacts
   std::array<double, kPulls> pulls{};  ///< times the full pull on a calm hand, in the last frame
   std::vector<PadMemory> pads;
@@ -152,7 +152,7 @@ void forget_hand(SettleMemory& memory) noexcept;
 struct SettledHand {
   HandPose hand;  ///< bit for bit the tracked one where nothing is to be corrected
   Contacts contacts{};
-  bool touches = false;    ///< or is about to land: some skin is on its cushion
+  bool touches = false;    ///< or is about to land, or hovers for a moment over what is pressed in
   bool corrected = false;  ///< or touched until just now: the hand is not the tracked one
 };
 

@@ -1,0 +1,76 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "nade/corrector.h"
+#include "nade/mesh.h"
+#include "support/hand_checks.h"
+#include "support/meshes.h"
+#include "support/pressed_hand.h"
+
+// Hands over the edge of a box.
+
+namespace nade {
+namespace {
+
+using test::kFrame_ns;
+using test::lowest_skin;
+using test::pressed_hand;
+using test::settling;
+
+/// Its top at y = 0, `size_m` wide and long, with its middle at `middle`.
+std::unique_ptr<MeshSurface> box_at(const Vec3& middle, float size_m) {
+  const float half_m = 0.5F * size_m;
+  return MeshSurface::build(
+             test::shifted(test::box_mesh({half_m, half_m, half_m}), middle.cast<float>()), "box")
+      .value();
+}
+
+/// From 0 to 1, starting and ending at rest.
+double eased(double x) {
+  const double t = std::clamp(x, 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
+/// The surface point nearest to a palm that comes down beside an edge is the edge, and the way from
+/// it leans: the hand was driven aside by nearly as much as it was pressed down.
+TEST(SettleEdge, AHandPressedDownOverAnEdgeIsNotDrivenAside) {
+  const auto box = box_at({0.2, -0.2, 0.0}, 0.4F);
+  const Object object(*box);
+  for (const double beside_m : {-0.005, 0.0, 0.01}) {  // the palm's middle from the edge
+    HandCorrector corrector(settling());
+    HandPose tracked, drawn;
+    for (int i = 0; i < 200; ++i) {
+      tracked = pressed_hand(-0.08 + 0.1 * eased(i / 90.0), 0.0, {beside_m, 0.0, 0.0});
+      drawn = corrector.update(tracked, object, i * kFrame_ns).pose;
+    }
+    const Vec3 shift = drawn[Joint::palm].position - tracked[Joint::palm].position;
+    EXPECT_LT(std::hypot(shift.x(), shift.z()), 0.005) << "palm " << beside_m << " m from the edge";
+    EXPECT_LT(std::abs(lowest_skin(drawn, object)), 0.001);
+  }
+}
+
+/// Fingers first over the edge, until only the heel is on it, and back. What was depth on the top
+/// was astray on the side: a hand that came back stayed there.
+TEST(SettleEdge, AHandThatGoesOverAnEdgeAndBackIsWhereItWas) {
+  const auto box = box_at({0.0, -0.2, 0.17}, 0.4F);
+  const Object object(*box);
+  for (const double depth_m : {0.03, 0.05}) {
+    HandCorrector corrector(settling());
+    std::vector<Vec3> palms;
+    for (int i = 0; i < 600; ++i) {
+      const double down = eased(i / 90.0);
+      const double out = eased((i - 120) / 180.0) - eased((i - 300) / 180.0);
+      const HandPose tracked =
+          pressed_hand(-0.08 + (0.08 + depth_m) * down, 0.0, {0.0, 0.0, 0.06 - 0.16 * out});
+      palms.push_back(corrector.update(tracked, object, i * kFrame_ns).pose[Joint::palm].position);
+    }
+    EXPECT_LT((palms.back() - palms[119]).norm(), 0.02) << depth_m << " m deep";
+  }
+}
+
+}  // namespace
+}  // namespace nade
