@@ -85,6 +85,7 @@ class Settling {
     // No joint goes farther than the tracked hand's fastest, and a little, unless the object pushes
     // or pulls harder than this holds it back.
     const double most_m = std::max(motion_m_ + kFreeRate_mps * seconds_, kRestRate_mps * seconds_);
+    const double firmness = search_.strengths[kNearestSkin];  // so that no pull overcomes it
     PosedHand posed = pose_hand(model_, correction_);
     for (int round = 0; round < rounds; ++round) {
       patches_ = find_touches(search_, posed, memory_);
@@ -93,8 +94,8 @@ class Settling {
       HandFreedoms step = least_cost_step(problem, HandFreedoms::Zero());
       Correction corrected = after(step);
       PosedHand next = pose_hand(model_, corrected);
-      if (!fresh_ && hold_back(memory_.last.drawn, next.hand, most_m, posed, step, search_.frame,
-                               memory_.rows)) {
+      if (!fresh_ && hold_back(memory_.last.drawn, next.hand, most_m, firmness, posed, step,
+                               search_.frame, memory_.rows)) {
         problem.rows = memory_.rows;
         step = least_cost_step(problem, step);
         corrected = after(step);

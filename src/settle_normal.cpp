@@ -10,7 +10,7 @@ namespace {
 
 /// The surface is seen from so far above the palm: from there, over an edge, the way out turns over
 /// about as much of the hand's way.
-constexpr double kAbove_m = 0.041059;
+constexpr double kAbove_m = 0.045;
 /// Cosine of the back of the hand with the push from which on it surely is above; below minus that
 /// the hand presses with its back, and its palm is above.
 constexpr double kSurelyAbove = 0.55582;
@@ -40,12 +40,15 @@ Vec3 outward_normal(const SurfacePoint& nearest, const Vec3& from) noexcept {
 Vec3 normal_under_palm(const ScaledSurface& object, const Pose& palm, const Vec3& push,
                        double motion_m, double seconds, SettleMemory& memory) noexcept {
   if (push.isZero()) return push;
+  const auto under = object.closest_point(palm.position, kFarthest_m, memory.under_palm);
   const Vec3 back = palm.rotation * Vec3::UnitY();
   const double up = 2.0 * smoothstep(-kSurelyAbove, kSurelyAbove, back.dot(push)) - 1.0;
   const Vec3 above = palm.position + up * kAbove_m * back;
-  const auto nearest = object.closest_point(above, kFarthest_m, memory.under_palm);
-  if (!nearest) return push;
-  const Vec3 seen = outward_normal(*nearest, above);
+  const auto nearest = object.closest_point(above, kFarthest_m, memory.under_hand);
+  if (!under || !nearest) return push;
+  Vec3 seen = outward_normal(*nearest, above);
+  const double smooth = smoothstep(kEdge, kNoEdge, seen.dot(under->normal));
+  seen = (smooth * under->normal + (1.0 - smooth) * seen).normalized();
   const double same = smoothstep(kOtherSide, kSameSide, seen.dot(push));
   const Vec3 normal = (push + same * (seen - push)).normalized();
   if (memory.normal.isZero()) return normal;

@@ -5,7 +5,7 @@
 namespace nade {
 namespace {
 
-constexpr double kHoldStiffness = 2.5e5;
+constexpr double kHoldStiffness = 1.5e5;
 /// The time constant with which a drawn joint takes on the tracked one's velocity.
 constexpr double kCoastTime_s = 0.059194;
 
@@ -84,8 +84,8 @@ void add_inertia(const JointVectors& coasted, double stiffness, const PosedHand&
       stiffness * (squares.trace() * Eigen::Matrix3d::Identity() - squares);
 }
 
-bool hold_back(const HandPose& last, const HandPose& next, double most_m, const PosedHand& posed,
-               const HandFreedoms& step, const Eigen::Matrix3d& frame,
+bool hold_back(const HandPose& last, const HandPose& next, double most_m, double firmness,
+               const PosedHand& posed, const HandFreedoms& step, const Eigen::Matrix3d& frame,
                std::vector<ContactRow>& rows) noexcept {
   const auto way_of = [&](std::size_t joint) -> Vec3 {
     return next.joints[joint].position - last.joints[joint].position;
@@ -98,7 +98,7 @@ bool hold_back(const HandPose& last, const HandPose& next, double most_m, const 
     ContactRow& row =
         rows.emplace_back(motion_along(posed, joint_point(joint), -way / length_m, frame));
     row.kind = RowKind::hold_back;
-    row.stiffness = kHoldStiffness;
+    row.stiffness = firmness * kHoldStiffness;
     row.gap_m = most_m - length_m - gap_after(row, step);
     any = true;
   };

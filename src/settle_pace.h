@@ -30,10 +30,11 @@ void add_inertia(const JointVectors& coasted, double stiffness, const PosedHand&
                  const Eigen::Matrix3d& frame, Springs& springs) noexcept;
 
 /// Adds rows that hold back what a step would take farther from the last frame's hand than
-/// `most_m`: of each digit the joint that goes farthest, and the wrist. `next` is the hand after
-/// the step, `posed` before it; `frame` that of the step. Says whether there are any.
-bool hold_back(const HandPose& last, const HandPose& next, double most_m, const PosedHand& posed,
-               const HandFreedoms& step, const Eigen::Matrix3d& frame,
+/// `most_m`: of each digit the joint that goes farthest, and the wrist; so many times as firmly as
+/// on a calm hand. `next` is the hand after the step, `posed` before it; `frame` that of the step.
+/// Says whether there are any.
+bool hold_back(const HandPose& last, const HandPose& next, double most_m, double firmness,
+               const PosedHand& posed, const HandFreedoms& step, const Eigen::Matrix3d& frame,
                std::vector<ContactRow>& rows) noexcept;
 
 }  // namespace nade

@@ -24,7 +24,7 @@ constexpr double kStifferInAir = 2.0;
 /// Turns and bends follow with this time constant.
 constexpr double kViscosity_s = 0.051082;
 /// And shifts along the surface with this: there the hand moves as the person's does.
-constexpr double kSlideTime_s = 3.6375;
+constexpr double kSlideTime_s = 45.0;
 /// In the air, all of a correction goes with this.
 constexpr double kReleaseTime_s = 0.095791;
 

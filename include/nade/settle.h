@@ -125,7 +125,8 @@ struct SettleMemory {
   double deepest_m = 0.0;            ///< of the tracked skin below the surface, the deepest
   Vec3 normal = Vec3::Zero();        ///< of the surface under the tracked palm; zero in the air
   SurfaceHint under_palm;            ///< where that was found
-  SurfaceHint under_nearest;         ///< and what is under the nearest drawn skin
+  SurfaceHint under_hand;            ///< and as seen from above the hand
+  SurfaceHint under_nearest;         ///< and under the nearest drawn skin
   Vec3 carried = Vec3::Zero();       ///< along the surface, from what was stroked so far
   Vec3 lag = Vec3::Zero();           ///< along the surface, by friction
   Vec3 drawn_lag = Vec3::Zero();     ///< the same, smoothed
