@@ -119,7 +119,7 @@ class Settling {
   void find_strengths();
   [[nodiscard]] Correction after(const HandFreedoms& step) const;
   [[nodiscard]] SettleProblem problem_at(const PosedHand& posed, int round) const;
-  [[nodiscard]] bool is_pressed() const;
+  [[nodiscard]] bool is_in_contact() const;
   void find_push(const Vec3& force);
   void remember_contact();
   void remember_frame(const HandPose& drawn);
@@ -267,18 +267,19 @@ SettleProblem Settling::problem_at(const PosedHand& posed, int round) const {
   return problem;
 }
 
-/// Whether the person is in the object near where the drawn hand hovers for a moment.
-bool Settling::is_pressed() const {
-  return std::any_of(patches_.begin(), patches_.end(), [](const PatchTouch& patch) {
-    return patch.depth_m > 0.0 && patch.gap_m < kPullReach_m;
-  });
+/// Whether the drawn hand touches, or the person is in the object near where it hovers for a
+/// moment.
+bool Settling::is_in_contact() const {
+  return touches_ || std::any_of(patches_.begin(), patches_.end(), [](const PatchTouch& patch) {
+           return patch.depth_m > 0.0 && patch.gap_m < kPullReach_m;
+         });
 }
 
 /// The way the object pushes, smoothed.
 void Settling::find_push(const Vec3& force) {
   const double strength = force.norm();
   if (!(strength > 1e-12)) {
-    push_ = touches_ || is_pressed() ? memory_.push : Vec3::Zero();
+    push_ = is_in_contact() ? memory_.push : Vec3::Zero();
     return;
   }
   push_ = force / strength;
@@ -323,7 +324,7 @@ SettledHand Settling::finish(const HandPose& posed) {
   settled.hand = is_none(correction_) ? model_.tracked : posed;
   remember_contact();
   remember_frame(settled.hand);
-  settled.touches = touches_ || is_pressed();
+  settled.touches = is_in_contact();
   settled.corrected = !is_none(correction_);
   for (std::size_t i = 0; i < kPartCount; ++i) {
     const PatchTouch& part = patches_[i];

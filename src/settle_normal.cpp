@@ -25,16 +25,31 @@ constexpr double kTurnAtRest_radps = 0.5;
 /// Cosines between a surface's normal and the direction off it: at an edge, and surely not.
 constexpr double kEdge = 0.95;
 constexpr double kNoEdge = 0.995;
+/// The same for what is seen from above the hand. Where that is no edge, what lies under the palm
+/// counts, unless it is of another side.
+constexpr double kEdgeSeen = 0.98;
+constexpr double kNoEdgeSeen = 0.997;
+/// Cosines between the two: of another side, and surely of the same.
+constexpr double kUnderOther = 0.7;
+constexpr double kUnderSame = 0.9;
 /// Nearer than this a direction off the surface says nothing.
 constexpr double kNearest_m = 1e-4;
+
+/// The direction off the surface to a point outside.
+Vec3 direction_off(const SurfacePoint& nearest, const Vec3& from) {
+  if (!(nearest.signed_distance > kNearest_m)) return nearest.normal;
+  return (from - nearest.point).normalized();
+}
+
+Vec3 mixed(const Vec3& from, const Vec3& to, double share) {
+  return (from + share * (to - from)).normalized();
+}
 
 }  // namespace
 
 Vec3 outward_normal(const SurfacePoint& nearest, const Vec3& from) noexcept {
-  if (!(nearest.signed_distance > kNearest_m)) return nearest.normal;
-  const Vec3 outward = (from - nearest.point).normalized();
-  const double smooth = smoothstep(kEdge, kNoEdge, outward.dot(nearest.normal));
-  return (smooth * nearest.normal + (1.0 - smooth) * outward).normalized();
+  const Vec3 outward = direction_off(nearest, from);
+  return mixed(outward, nearest.normal, smoothstep(kEdge, kNoEdge, outward.dot(nearest.normal)));
 }
 
 Vec3 normal_under_palm(const ScaledSurface& object, const Pose& palm, const Vec3& push,
@@ -46,11 +61,12 @@ Vec3 normal_under_palm(const ScaledSurface& object, const Pose& palm, const Vec3
   const Vec3 above = palm.position + up * kAbove_m * back;
   const auto nearest = object.closest_point(above, kFarthest_m, memory.under_hand);
   if (!under || !nearest) return push;
+  const double smooth =
+      smoothstep(kEdgeSeen, kNoEdgeSeen, direction_off(*nearest, above).dot(nearest->normal));
   Vec3 seen = outward_normal(*nearest, above);
-  const double smooth = smoothstep(kEdge, kNoEdge, seen.dot(under->normal));
-  seen = (smooth * under->normal + (1.0 - smooth) * seen).normalized();
-  const double same = smoothstep(kOtherSide, kSameSide, seen.dot(push));
-  const Vec3 normal = (push + same * (seen - push)).normalized();
+  const double same = smoothstep(kUnderOther, kUnderSame, seen.dot(under->normal));
+  seen = mixed(seen, under->normal, smooth * same);
+  const Vec3 normal = mixed(push, seen, smoothstep(kOtherSide, kSameSide, seen.dot(push)));
   if (memory.normal.isZero()) return normal;
   const double most_rad = motion_m / kSharpest_m + kTurnAtRest_radps * seconds;
   const double angle_rad = std::acos(std::clamp(normal.dot(memory.normal), -1.0, 1.0));

@@ -48,8 +48,10 @@ constexpr double kHigherThanNearest = 1.15;
 /// Drawn skin that comes down by itself brakes no less than this, as stiff as a damper.
 constexpr double kBraking_mpss = 1.5427;
 constexpr double kBrakeDamping = 18583.0;
-/// What lands after the skin that is nearest to the surface may take so many times its way.
-constexpr double kLaterWay = 1.75;
+/// What lands after the skin that is nearest to the surface may take a way longer by what the hand
+/// goes in so long, and so many times as long at the most.
+constexpr double kLater_s = 0.0125;
+constexpr double kLongestWay = 2.0;
 /// What could come no nearer than this to where it brakes needs no row, by `row_reach_m`.
 constexpr double kRowReachOfBrake = 0.4997;
 
@@ -141,7 +143,8 @@ class Landing {
  public:
   explicit Landing(const TouchSearch& search) : search_(search) {
     if (!search.before) return;
-    longest_ = search.push.isZero() ? 1.0 : kLaterWay;
+    const double later_m = search.push.isZero() ? 0.0 : kLater_s * search.speed_mps;
+    longest_ = std::min(kLongestWay, 1.0 + later_m / kThickest_m);
     cushioned_m_ =
         slowing(search.speed_mps * search.speed_mps / (2.0 * cushion_thickness(search.speed_mps)));
   }
