@@ -17,10 +17,10 @@ constexpr double kLeastSame_m = 0.00002;
 constexpr double kMostSame_m = 0.0015;
 constexpr double kSameOfGap = 0.2;
 /// A pad that is too far is not looked at again until it could have come so much nearer.
-constexpr double kFarSlack_m = 0.03;
+constexpr double kFarSlack_m = 0.02;
 /// And then from so much farther out: the larger a ball is that rests on the surface, the farther
 /// along the surface a pad can go in it.
-constexpr double kFartherOut_m = 0.03;
+constexpr double kFartherOut_m = 0.02;
 /// At an edge the nearest point's normal turns in a moment. A pad's follows over about this way.
 constexpr double kTurningWay_m = 0.0026071;
 /// Cosine between the normals of two sides of a sheet, at most; well below that of a box's faces.
