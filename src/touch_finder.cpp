@@ -31,8 +31,12 @@ constexpr PullGrowth kPartPull{-0.0062146, 0.017795, 51130.0};
 constexpr PullGrowth kPalmPull{kPartPull.start_m, kPartPull.full_m, 1.5033e5};
 /// While any skin is pressed in, what is nearest to the surface is kept within reach of a touch: a
 /// hand that leaves does not take off before the person's own does.
-constexpr PullGrowth kTouchPull{0.0, 0.014162, 2.846e5};
+constexpr PullGrowth kTouchPull{0.0, 0.0126, 2.846e5};
 constexpr double kHighestTouch_m = 0.0012;
+/// Where that is farther off than this, as on a hand that slides over an edge, it is drawn besides
+/// by so many times a calm hand's pull.
+constexpr double kAstray_m = 0.0007;
+constexpr double kAstrayPull = 3.0;
 
 // Skin lands on a cushion and leaves it by the same way: at rest so thick, and thicker by the way
 // that it goes in so long. It never goes quite flat.
@@ -50,7 +54,7 @@ constexpr double kBraking_mpss = 1.5427;
 constexpr double kBrakeDamping = 18583.0;
 /// What lands after the skin that is nearest to the surface may take a way longer by what the hand
 /// goes in so long, and so many times as long at the most.
-constexpr double kLater_s = 0.0125;
+constexpr double kLater_s = 0.0116;
 constexpr double kLongestWay = 2.0;
 /// What could come no nearer than this to where it brakes needs no row, by `row_reach_m`.
 constexpr double kRowReachOfBrake = 0.4997;
@@ -294,6 +298,10 @@ void add_pulls(const TouchSearch& search, const PosedHand& posed, const PatchTou
     row.gap_m = away_m + search.sink_m - kPullRest_m - held_m;
     row.curvature = patch.curvature;
     row.stiffness = memory.pulls[i] * growth.stiffness;
+    if (!nearest || row.gap_m <= kAstray_m) continue;
+    ContactRow& astray = memory.rows.emplace_back(row);
+    astray.gap_m -= kAstray_m;
+    astray.stiffness *= kAstrayPull / search.strengths[i];
   }
 }
 

@@ -11,9 +11,10 @@
 namespace nade {
 
 /// Rows for skin beyond this many are left out: a hand found anew has one for every point. Then
-/// there are those that draw near, and what holds back the wrist and the digits.
+/// there are those that draw near, two for what is nearest, and what holds back the wrist and the
+/// digits.
 inline constexpr std::size_t kMostSkinRows = 1280;
-inline constexpr std::size_t kMostContactRows = kMostSkinRows + kPulls + 1 + kDigitCount;
+inline constexpr std::size_t kMostContactRows = kMostSkinRows + kPulls + 1 + 1 + kDigitCount;
 
 /// A patch of skin, drawn and tracked, against the surface near it.
 struct PatchTouch {

@@ -110,6 +110,12 @@ TEST(Suite, TheHandLeavesTheSmallestBallNoSoonerThanThePersonsOwn) {
   EXPECT_EQ(metrics_of_nade("sphere:0.06 line 0.1 m/s 20 mm").contact_ratio, 1.0);
 }
 
+/// The hand slides off the edge faster than it falls: for every sixteenth pressing frame it
+/// hovered.
+TEST(Suite, AFastHandTouchesWhatItSlidesOff) {
+  EXPECT_GT(metrics_of_nade("box/across line 0.5 m/s 20 mm").contact_ratio.value(), 0.975);
+}
+
 /// From above a tilted hand the dog's back leans more than it does: the hand was shifted 14 mm
 /// aside while it came down, ahead of the person's own (a lag of -2.3 ms).
 TEST(Suite, ATiltedHandGoesAlongTheDogAsThePersonsOwn) {
