@@ -36,8 +36,7 @@ constexpr double kSharpest = 103.65;
 /// Lets the normal follow from where it was at the last look; across a thin sheet it turns at once.
 void turn_slowly(const PadPlane& before, double way_m, PadPlane& now) {
   if (before.normal.dot(now.normal) <= kOtherSide) return;
-  const double share = followed(way_m, kTurningWay_m);
-  now.normal = (before.normal + share * (now.normal - before.normal)).normalized();
+  now.normal = mixed(before.normal, now.normal, followed(way_m, kTurningWay_m));
 }
 
 /// Takes in how the normal turned on the way since the last look. A way shorter than the least says

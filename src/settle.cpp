@@ -284,8 +284,7 @@ void Settling::find_push(const Vec3& force) {
   }
   push_ = force / strength;
   if (memory_.push.isZero()) return;
-  const double share = followed(seconds_, kPushTime_s);
-  push_ = (memory_.push + share * (push_ - memory_.push)).normalized();
+  push_ = mixed(memory_.push, push_, followed(seconds_, kPushTime_s));
 }
 
 void Settling::remember_contact() {

@@ -41,10 +41,6 @@ Vec3 direction_off(const SurfacePoint& nearest, const Vec3& from) {
   return (from - nearest.point).normalized();
 }
 
-Vec3 mixed(const Vec3& from, const Vec3& to, double share) {
-  return (from + share * (to - from)).normalized();
-}
-
 }  // namespace
 
 Vec3 outward_normal(const SurfacePoint& nearest, const Vec3& from) noexcept {

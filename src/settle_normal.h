@@ -7,6 +7,11 @@ namespace nade {
 
 // Which way is out of the object.
 
+/// A unit direction that has turned this share of the way to another.
+[[nodiscard]] inline Vec3 mixed(const Vec3& from, const Vec3& to, double share) noexcept {
+  return (from + share * (to - from)).normalized();
+}
+
 /// The surface's normal at its point nearest to `from`, unit: its own where that runs smoothly,
 /// the direction to `from` at an edge or a tip, where its own turns in a moment.
 [[nodiscard]] Vec3 outward_normal(const SurfacePoint& nearest, const Vec3& from) noexcept;

@@ -42,8 +42,12 @@ Metrics metrics_of_nade(const std::string& case_name) {
   const auto nade = std::ranges::find(methods, "nade", &ComparedMethod::name);
   const std::vector<SuiteCase> cases = suite_cases({});
   const auto stroke = std::ranges::find(cases, case_name, &SuiteCase::name);
-  if (!hands || nade == methods.end() || stroke == cases.end()) {
-    ADD_FAILURE() << "no such case: " << case_name;
+  if (!hands) {
+    ADD_FAILURE() << hands.error().message;
+    return {};
+  }
+  if (nade == methods.end() || stroke == cases.end()) {
+    ADD_FAILURE() << "no method nade, or no case " << case_name;
     return {};
   }
   const Result<CaseScore> scored = score_of(*stroke, *hands, *nade);
