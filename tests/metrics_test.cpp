@@ -225,6 +225,17 @@ TEST(Metrics, ConstantVelocityShowsNoLag) {
   EXPECT_FALSE(metrics.linkage_lag_ms);
 }
 
+TEST(Metrics, AHandThatPressesInOnePlaceDoesNotStroke) {
+  const Metrics metrics = measure(200, [](double seconds) {
+    const HandPose hand = shifted(at_height(kDeep), {0.004 * std::sin(2.0 * seconds), 0.0, 0.0});
+    return Pair{hand, shifted(hand, kOnto + Vec3(0.01 * seconds, 0.0, 0.0))};
+  });
+  EXPECT_TRUE(metrics.contact_ratio);
+  EXPECT_FALSE(metrics.linkage_gain);
+  EXPECT_FALSE(metrics.linkage_r);
+  EXPECT_FALSE(metrics.linkage_lag_ms);
+}
+
 TEST(Metrics, UnevenFramesDoNotDisturbTheLinkage) {
   const HandMesh mesh = toy_mesh(Handedness::right);
   MetricsMeter meter(mesh);

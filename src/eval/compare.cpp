@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "linkage_meter.h"
 #include "nade/eval/press.h"
 #include "nade/eval/wrist_offset.h"
 #include "nade/io/assets.h"
@@ -16,8 +17,7 @@ namespace nade {
 namespace {
 
 constexpr double kNear_m = 0.2;
-constexpr double kPressed_m = 0.002;     // as the metrics have it
-constexpr double kLinkagePath_m = 0.05;  // less is no stroke
+constexpr double kPressed_m = 0.002;  // as the metrics have it
 
 ComparedMethod corrector_method(std::string name, Method method) {
   return {std::move(name), [method](const SolverContext& context) -> HandSolver {
@@ -169,7 +169,7 @@ CaseScore score(const SuiteCase& suite_case, const CaseRecording& tracked,
                    corrected.solve_us.quantile(0.99)};
   const bool presses = !suite_case.clip && suite_case.synth.stroke == Stroke::press;
   const Object placed = object.loaded.placed(tracked.placement);
-  if (presses || pressed_path_m(tracked, placed) < kLinkagePath_m) {
+  if (presses || pressed_path_m(tracked, placed) < kShortestStroke_m) {
     result.metrics.linkage_gain.reset();
     result.metrics.linkage_r.reset();
     result.metrics.linkage_lag_ms.reset();

@@ -43,6 +43,7 @@ std::optional<double> LinkageMeter::Sums::correlation() const {
 
 void LinkageMeter::add(const PalmStep& step) {
   if (!(step.seconds > 0.0)) return;
+  path_m_ += step.tracked_m.norm();
   const Velocities now{step.tracked_m / step.seconds, step.corrected_m / step.seconds};
   newest_ = (newest_ + 1) % past_.size();
   past_[newest_] = now;
@@ -61,6 +62,7 @@ void LinkageMeter::break_off() { known_ = 0; }
 void LinkageMeter::merge(const LinkageMeter& other) {
   for (std::size_t i = 0; i < kLagCount; ++i) sums_[i].merge(other.sums_[i]);
   seconds_.merge(other.seconds_);
+  path_m_ += other.path_m_;
   break_off();
 }
 
@@ -93,6 +95,7 @@ std::optional<double> LinkageMeter::find_lag_frames(double frame_seconds) const 
 
 Linkage LinkageMeter::finish() const {
   Linkage linkage;
+  if (path_m_ < kShortestStroke_m) return linkage;
   const Sums& same = at_lag(0);
   if (same.tracked_square > 0.0) linkage.gain = same.product / same.tracked_square;
   const double scale = std::sqrt(same.tracked_square * same.corrected_square);

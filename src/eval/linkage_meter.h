@@ -10,6 +10,10 @@
 
 namespace nade {
 
+/// A tracked palm that goes less far along the surface in all does not stroke it: there is nothing
+/// to follow.
+inline constexpr double kShortestStroke_m = 0.05;
+
 /// How the corrected palm's velocity follows the tracked palm's, over a surface.
 struct Linkage {
   std::optional<double> gain;
@@ -29,7 +33,8 @@ struct PalmStep {
 /// Gain and correlation are about zero (no motion is no motion), over the pooled components of
 /// the velocity. The lag is where the cross-correlation about the means is highest, within
 /// 250 ms and 128 frames either way, between frames by a parabola; it has no value where the
-/// velocity hardly changes, for then nothing shows a lag.
+/// velocity hardly changes, for then nothing shows a lag. Without a stroke none of them has a
+/// value.
 class LinkageMeter {
  public:
   void add(const PalmStep& step);
@@ -70,6 +75,7 @@ class LinkageMeter {
   std::size_t newest_ = 0;  ///< in past_
   std::size_t known_ = 0;   ///< how many of past_ belong to the unbroken run
   QuantileSketch seconds_;
+  double path_m_ = 0.0;  ///< of the tracked palm
 };
 
 }  // namespace nade
