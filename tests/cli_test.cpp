@@ -280,6 +280,19 @@ TEST_F(Cli, MeasureGivesEveryMetric) {
   EXPECT_TRUE(nlohmann::json::accept(piped.out)) << piped.out;
 }
 
+TEST_F(Cli, MeasureTakesThePlacingThatCorrectTook) {
+  make_stroke("in.jsonl");
+  for (const std::string placing :
+       {"--object sphere --press 0.02", "--object dog --press 0.015",
+        "--object sphere --at 0.1,0,0 --scale 2 --press 0.02", "--object plane --at 0,-0.005,0"}) {
+    ASSERT_EQ(nade("correct in.jsonl -o out.jsonl " + placing).status, 0) << placing;
+    const Ran by_header = nade("measure in.jsonl out.jsonl --csv -");
+    const Ran by_options = nade("measure in.jsonl out.jsonl --csv - " + placing);
+    EXPECT_EQ(by_options.status, 0) << by_options.err;
+    EXPECT_EQ(by_options.out, by_header.out) << placing;
+  }
+}
+
 TEST_F(Cli, HandThatComesAndGoes) {
   make_stroke("in.jsonl");
   auto lines = lines_of(read_file(path("in.jsonl")));

@@ -11,11 +11,11 @@
 #include "console.h"
 #include "method_options.h"
 #include "nade/corrector.h"
-#include "nade/eval/press.h"
 #include "nade/eval/quantile.h"
 #include "nade/io/output_file.h"
 #include "nade/io/recording.h"
 #include "object_options.h"
+#include "press_option.h"
 #include "spooled_input.h"
 
 namespace nade::cli {
@@ -36,33 +36,6 @@ struct Summary {
   std::array<std::size_t, 4> hands{};  ///< by HandStatus
   QuantileSketch solve_us;
 };
-
-Result<PalmTrack> read_palms(const std::string& path) {
-  Result<RecordingReader> reader = RecordingReader::open(path);
-  if (!reader) return reader.error();
-  PalmTrack track;
-  while (true) {
-    const Result<std::optional<RecordedFrame>> frame = reader->next();
-    if (!frame) return frame.error();
-    if (!*frame) return track;
-    track.add(**frame);
-  }
-}
-
-/// Where the object stands: as asked, and pressed against the palms where that was asked.
-Status place(const CorrectArguments& arguments, const std::string& path, PlacedObject& placed) {
-  if (!arguments.press_m) return ok_status();
-  const Result<PalmTrack> track = read_palms(path);
-  if (!track) return track.error();
-  const Result<Placement> pressed =
-      press(placed.loaded, placed.placement, *track, *arguments.press_m);
-  if (!pressed) {
-    if (pressed.error().code == ErrorCode::out_of_range) return pressed.error();
-    return Error{pressed.error().code, fmt::format("{}: {}", path, pressed.error().message)};
-  }
-  placed.placement = *pressed;
-  return ok_status();
-}
 
 RecordingHeader corrected_header(const RecordingHeader& tracked, const CorrectArguments& arguments,
                                  const PlacedObject& placed) {
@@ -161,8 +134,10 @@ std::string as_line(const Summary& summary, const CorrectArguments& arguments) {
 Status run_on(const CorrectArguments& arguments, const std::string& path) {
   Result<PlacedObject> placed = load_placed(arguments.object);
   if (!placed) return placed.error();
-  const Status stands = place(arguments, path, *placed);
-  if (!stands) return stands;
+  if (arguments.press_m) {
+    const Status pressed = press_onto(path, *arguments.press_m, *placed);
+    if (!pressed) return pressed;
+  }
   const Result<Summary> summary = correct_all(arguments, path, *placed);
   if (!summary) return summary.error();
   if (!arguments.json) {
@@ -199,11 +174,7 @@ void add_correct(CLI::App& app, Action& action) {
       ->type_name("OUT")
       ->required();
   add_object_options(*command, arguments->object);
-  command
-      ->add_option("--press", arguments->press_m,
-                   "moves the object so that the palms' skin lies so deep at the median")
-      ->type_name("M")
-      ->check(CLI::Range(0.0, 0.2));
+  add_press_option(*command, arguments->press_m);
   command->add_option("--json", arguments->json, "writes the summary as JSON; - is standard output")
       ->type_name("FILE");
   add_method_options(*command, arguments->method);

@@ -10,6 +10,7 @@
 #include "nade/eval/recording_pair.h"
 #include "nade/io/output_file.h"
 #include "object_options.h"
+#include "press_option.h"
 #include "spooled_input.h"
 
 namespace nade::cli {
@@ -19,6 +20,7 @@ struct MeasureArguments {
   std::string tracked;
   std::string corrected;
   ObjectOptions object;
+  std::optional<double> press_m;
   std::optional<std::string> json;
   std::optional<std::string> csv;
 };
@@ -30,10 +32,16 @@ Result<MeasureReport> measure(const MeasureArguments& arguments, const std::stri
       RecordingPair::open(tracked_path, arguments.tracked, arguments.corrected);
   if (!pair) return pair.error();
   const RecordingHeader& header = pair->corrected_header();
-  const auto recorded = placing_from(header.unknown_json, arguments.corrected);
+  auto recorded = placing_from(header.unknown_json, arguments.corrected);
   if (!recorded) return recorded.error();
+  // What was pressed is pressed from where it was told to stand, as when it was corrected.
+  if (arguments.press_m && *recorded) (*recorded)->placement = {};
   Result<PlacedObject> placed = load_placed(arguments.object, *recorded);
   if (!placed) return placed.error();
+  if (arguments.press_m) {
+    const Status pressed = press_onto(tracked_path, *arguments.press_m, *placed);
+    if (!pressed) return pressed.error();
+  }
   Progress progress("measured", pair->frames());
   const Result<PairMetrics> metrics =
       pair->measure(placed->object(), [&progress, &placed](std::int64_t time_ns) {
@@ -94,6 +102,7 @@ void add_measure(CLI::App& app, Action& action) {
       ->type_name("CORRECTED")
       ->required();
   add_object_options(*command, arguments->object);
+  add_press_option(*command, arguments->press_m);
   command
       ->add_option("--json", arguments->json,
                    "writes the metrics as JSON, and prints no table; - is stdout")

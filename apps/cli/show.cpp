@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "console.h"
+#include "press_option.h"
 
 namespace nade::cli {
 namespace {
@@ -68,11 +69,7 @@ Status check(const ShowArguments& arguments, const Headers& headers) {
 
 void add_show_options(CLI::App& command, ShowArguments& arguments) {
   add_object_options(command, arguments.object);
-  command
-      .add_option("--press", arguments.press_m,
-                  "moves the object so that the palms' skin lies so deep at the median")
-      ->type_name("M")
-      ->check(CLI::Range(0.0, 0.2));
+  add_press_option(command, arguments.press_m);
   add_hand_options(command, arguments.hands);
 }
 
@@ -93,14 +90,9 @@ Result<Show> prepare(const ShowArguments& arguments) {
   Result<PlacedObject> placed = load_placed(arguments.object, headers->placing);
   if (!placed) return placed.error();
   if (arguments.press_m) {
-    const Result<Placement> pressed =
-        press(placed->loaded, placed->placement, seen->palms, *arguments.press_m);
-    if (!pressed) {
-      if (pressed.error().code == ErrorCode::out_of_range) return pressed.error();
-      return Error{pressed.error().code,
-                   fmt::format("{}: {}", arguments.recording, pressed.error().message)};
-    }
-    placed->placement = *pressed;
+    const Status pressed =
+        press_onto(seen->palms, arguments.recording, *arguments.press_m, *placed);
+    if (!pressed) return pressed.error();
   }
   placed->start_animation(seen->first_ns);
   Performance performance{arguments.recording, arguments.corrected, options_of(arguments.method),

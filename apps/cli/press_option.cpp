@@ -1,0 +1,49 @@
+#include "press_option.h"
+
+#include <fmt/format.h>
+
+#include "nade/io/recording.h"
+
+namespace nade::cli {
+namespace {
+
+Result<PalmTrack> read_palms(const std::string& path) {
+  Result<RecordingReader> reader = RecordingReader::open(path);
+  if (!reader) return reader.error();
+  PalmTrack track;
+  while (true) {
+    const Result<std::optional<RecordedFrame>> frame = reader->next();
+    if (!frame) return frame.error();
+    if (!*frame) return track;
+    track.add(**frame);
+  }
+}
+
+}  // namespace
+
+void add_press_option(CLI::App& command, std::optional<double>& press_m) {
+  command
+      .add_option("--press", press_m,
+                  "moves the object so that the palms' skin lies so deep at the median")
+      ->type_name("M")
+      ->check(CLI::Range(0.0, 0.2));
+}
+
+Status press_onto(const PalmTrack& palms, const std::string& path, double press_m,
+                  PlacedObject& placed) {
+  const Result<Placement> pressed = press(placed.loaded, placed.placement, palms, press_m);
+  if (!pressed) {
+    if (pressed.error().code == ErrorCode::out_of_range) return pressed.error();
+    return Error{pressed.error().code, fmt::format("{}: {}", path, pressed.error().message)};
+  }
+  placed.placement = *pressed;
+  return ok_status();
+}
+
+Status press_onto(const std::string& path, double press_m, PlacedObject& placed) {
+  const Result<PalmTrack> palms = read_palms(path);
+  if (!palms) return palms.error();
+  return press_onto(*palms, path, press_m, placed);
+}
+
+}  // namespace nade::cli
