@@ -21,12 +21,14 @@ using test::lowest_skin;
 using test::pressed_hand;
 using test::settling;
 
-/// Its top at y = 0, `size_m` wide and long, with its middle at `middle`.
-std::unique_ptr<MeshSurface> box_at(const Vec3& middle, float size_m) {
-  const float half_m = 0.5F * size_m;
-  return MeshSurface::build(
-             test::shifted(test::box_mesh({half_m, half_m, half_m}), middle.cast<float>()), "box")
-      .value();
+constexpr float kSize_m = 0.4F;
+
+/// Its top at y = 0, with its middle at `middle`; its edges are rounded over `bevel_m`, if at all.
+std::unique_ptr<MeshSurface> box_at(const Vec3& middle, float bevel_m = 0.0F) {
+  const test::Vec3f half_size = test::Vec3f::Constant(0.5F * kSize_m);
+  const TriangleSoup box =
+      bevel_m > 0.0F ? test::rounded_box_mesh(half_size, bevel_m) : test::box_mesh(half_size);
+  return MeshSurface::build(test::shifted(box, middle.cast<float>()), "box").value();
 }
 
 /// From 0 to 1, starting and ending at rest.
@@ -38,7 +40,7 @@ double eased(double x) {
 /// The surface point nearest to a palm that comes down beside an edge is the edge, and the way from
 /// it leans: the hand was driven aside by nearly as much as it was pressed down.
 TEST(SettleEdge, AHandPressedDownOverAnEdgeIsNotDrivenAside) {
-  const auto box = box_at({0.2, -0.2, 0.0}, 0.4F);
+  const auto box = box_at({0.2, -0.2, 0.0});
   const Object object(*box);
   for (const double beside_m : {-0.005, 0.0, 0.01}) {  // the palm's middle from the edge
     HandCorrector corrector(settling());
@@ -53,22 +55,34 @@ TEST(SettleEdge, AHandPressedDownOverAnEdgeIsNotDrivenAside) {
   }
 }
 
-/// Fingers first over the edge, until only the heel is on it, and back. What was depth on the top
-/// was astray on the side: a hand that came back stayed there.
+/// Fingers first over the edge, until only the heel is on it, and back. Gives how far from where it
+/// was the palm is then.
+double away_after_a_way_over(const Object& box, double depth_m) {
+  HandCorrector corrector(settling());
+  std::vector<Vec3> palms;
+  for (int i = 0; i < 600; ++i) {
+    const double down = eased(i / 90.0);
+    const double out = eased((i - 120) / 180.0) - eased((i - 300) / 180.0);
+    const HandPose tracked =
+        pressed_hand(-0.08 + (0.08 + depth_m) * down, 0.0, {0.0, 0.0, 0.06 - 0.16 * out});
+    palms.push_back(corrector.update(tracked, box, i * kFrame_ns).pose[Joint::palm].position);
+  }
+  return (palms.back() - palms[119]).norm();
+}
+
+/// What was depth on the top was astray on the side: a hand that came back stayed there.
 TEST(SettleEdge, AHandThatGoesOverAnEdgeAndBackIsWhereItWas) {
-  const auto box = box_at({0.0, -0.2, 0.17}, 0.4F);
-  const Object object(*box);
+  const auto box = box_at({0.0, -0.2, 0.17});
   for (const double depth_m : {0.03, 0.05}) {
-    HandCorrector corrector(settling());
-    std::vector<Vec3> palms;
-    for (int i = 0; i < 600; ++i) {
-      const double down = eased(i / 90.0);
-      const double out = eased((i - 120) / 180.0) - eased((i - 300) / 180.0);
-      const HandPose tracked =
-          pressed_hand(-0.08 + (0.08 + depth_m) * down, 0.0, {0.0, 0.0, 0.06 - 0.16 * out});
-      palms.push_back(corrector.update(tracked, object, i * kFrame_ns).pose[Joint::palm].position);
-    }
-    EXPECT_LT((palms.back() - palms[119]).norm(), 0.02) << depth_m << " m deep";
+    EXPECT_LT(away_after_a_way_over(Object(*box), depth_m), 0.02) << depth_m << " m deep";
+  }
+}
+
+/// A rounded edge was none: the hand was lost on the box's side, 11 to 48 mm from where it was.
+TEST(SettleEdge, ABevelledEdgeIsAnEdge) {
+  for (const float bevel_m : {0.0005F, 0.002F, 0.005F, 0.01F}) {
+    const auto box = box_at({0.0, -0.2, 0.17}, bevel_m);
+    EXPECT_LT(away_after_a_way_over(Object(*box), 0.05), 0.01) << bevel_m << " m";
   }
 }
 

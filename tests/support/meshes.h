@@ -56,6 +56,45 @@ inline TriangleSoup box_mesh(const Vec3f& half_size) {
   return soup;
 }
 
+/// A box about the origin whose edges are rounded: what lies within `radius` of a smaller one.
+inline TriangleSoup rounded_box_mesh(const Vec3f& half_size, float radius) {
+  constexpr int kSteps = 6;  // across an edge's half
+  constexpr int kTicks = 2 * kSteps + 2;
+  const auto tick = [radius](int i, float half) {
+    const float in = radius * static_cast<float>(std::min(i, kTicks - 1 - i)) / kSteps;
+    return 2 * i < kTicks ? in - half : half - in;
+  };
+  const Vec3f core = half_size - Vec3f::Constant(radius);
+  TriangleSoup soup;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int u = (axis + 1) % 3;
+    const int v = (axis + 2) % 3;
+    for (const float side : {-1.0F, 1.0F}) {
+      const auto first = static_cast<std::uint32_t>(soup.vertices.size());
+      for (int i = 0; i < kTicks; ++i) {
+        for (int j = 0; j < kTicks; ++j) {
+          Vec3f square;
+          square[axis] = side * half_size[axis];
+          square[u] = tick(i, half_size[u]);
+          square[v] = tick(j, half_size[v]);
+          const Vec3f inner = square.cwiseMin(core).cwiseMax(-core);
+          soup.vertices.push_back(inner + radius * (square - inner).normalized());
+        }
+      }
+      for (int i = 0; i + 1 < kTicks; ++i) {
+        for (int j = 0; j + 1 < kTicks; ++j) {
+          const auto a = first + static_cast<std::uint32_t>(i * kTicks + j);
+          const std::array<std::uint32_t, 4> at{a, a + kTicks, a + kTicks + 1, a + 1};
+          const bool up = side > 0.0F;
+          soup.triangles.push_back({at[0], up ? at[1] : at[2], up ? at[2] : at[1]});
+          soup.triangles.push_back({at[0], up ? at[2] : at[3], up ? at[3] : at[2]});
+        }
+      }
+    }
+  }
+  return soup;
+}
+
 /// An icosahedron's triangles in four, `times` times, on the sphere: 20 x 4^times triangles.
 inline TriangleSoup icosphere(float radius, int times) {
   const float g = std::numbers::phi_v<float>;
