@@ -32,6 +32,14 @@ constexpr double kBendRate = 0.646;
 constexpr double kFreeRate_mps = 0.0030187;
 /// Fingers come down no slower than this, also when the hand keeps still.
 constexpr double kRestRate_mps = 0.01;
+// In the air nothing is in the way: what is left of a correction goes by up to so many times the
+// tracked hand's motion, or so fast. Where that hand keeps still, slower than `kAtRest_mps`, what
+// is large goes in about `kCatchUpTime_s`.
+constexpr double kWayInAir = 1.4;
+constexpr double kRateInAir_mps = 0.03;
+constexpr double kAtRest_mps = 0.015;
+constexpr double kCatchUpTime_s = 0.5;
+constexpr double kFastestAtRest_mps = 0.12;
 constexpr double kWallStiffness = 1e5;
 /// A joint's mass: a spring of this over the square of the frame's seconds keeps it going. Less in
 /// the air, where the hand comes back to the tracked one.
@@ -82,9 +90,8 @@ class Settling {
 
   SettledHand run() {
     const int rounds = fresh_ ? kFirstRounds : kRounds;
-    // No joint goes farther than the tracked hand's fastest, and a little, unless the object pushes
-    // or pulls harder than this holds it back.
-    const double most_m = std::max(motion_m_ + kFreeRate_mps * seconds_, kRestRate_mps * seconds_);
+    // No joint goes farther unless the object pushes or pulls harder than this holds it back.
+    const double most_m = farthest_way();
     const double firmness = search_.strengths[kNearestSkin];  // so that no pull overcomes it
     PosedHand posed = pose_hand(model_, correction_);
     for (int round = 0; round < rounds; ++round) {
@@ -119,6 +126,8 @@ class Settling {
   void find_strengths();
   [[nodiscard]] Correction after(const HandFreedoms& step) const;
   [[nodiscard]] SettleProblem problem_at(const PosedHand& posed, int round) const;
+  [[nodiscard]] bool is_in_air() const { return !fresh_ && memory_.push.isZero(); }
+  [[nodiscard]] double farthest_way() const;
   [[nodiscard]] bool is_in_contact() const;
   void find_push(const Vec3& force);
   void remember_contact();
@@ -229,7 +238,7 @@ SettleProblem Settling::problem_at(const PosedHand& posed, int round) const {
 
   HandFreedoms away = step_between({}, correction_, search_.frame);
   away.head<3>() -= search_.frame.transpose() * (memory_.carried + memory_.drawn_lag);
-  const bool in_air = !fresh_ && memory_.push.isZero();
+  const bool in_air = is_in_air();
   problem.springs.add(in_air ? stiffness_in_air(away) : stiffness_of_pose(away), -away);
   // The forces on a hand found anew are not yet those that it will rest with.
   if (!fresh_) problem.springs.add(memory_.geometric, HandFreedoms::Zero());
@@ -259,12 +268,28 @@ SettleProblem Settling::problem_at(const PosedHand& posed, int round) const {
     return problem;
   }
   const double slack_m = kFreeRate_mps * seconds_;
+  const double most_m = farthest_way();
   const HandFreedoms rate =
-      steps_of(kShiftRate * motion_m_ + slack_m, kTurnRate * motion_m_ + slack_m,
-               std::max(kBendRate * motion_m_ + slack_m, kRestRate_mps * seconds_));
+      in_air ? steps_of(most_m, most_m, most_m)
+             : steps_of(kShiftRate * motion_m_ + slack_m, kTurnRate * motion_m_ + slack_m,
+                        std::max(kBendRate * motion_m_ + slack_m, kRestRate_mps * seconds_));
   problem.rate.low = -rate - changed;
   problem.rate.high = rate - changed;
   return problem;
+}
+
+/// How far a joint goes in the frame at the most: on the surface as far as the tracked hand's
+/// fastest, and a little.
+double Settling::farthest_way() const {
+  if (!is_in_air()) {
+    return std::max(motion_m_ + kFreeRate_mps * seconds_, kRestRate_mps * seconds_);
+  }
+  const double rest = 1.0 - smoothstep(0.0, kAtRest_mps, motion_m_ / seconds_);
+  const double away_m = reach_of(step_between({}, memory_.last.correction, search_.frame));
+  const double at_rest_mps =
+      std::clamp(away_m / kCatchUpTime_s, kRateInAir_mps, kFastestAtRest_mps);
+  const double rate_mps = kRateInAir_mps + rest * (at_rest_mps - kRateInAir_mps);
+  return std::max(kWayInAir * motion_m_, rate_mps * seconds_);
 }
 
 /// Whether the drawn hand touches, or the person is in the object near where it hovers for a

@@ -94,6 +94,27 @@ TEST(SettleMotion, AHandThatLeavesABallIsNotThrownBack) {
   EXPECT_LT(most_uneven(std::span(drawn).subspan(free_from - 1)), 0.0006);
 }
 
+/// Pressed deep into a ball's side a hand is drawn far from the person's own. In the air it comes
+/// back while that moves, and when that keeps still: it went by 6 mm a second then.
+TEST(SettleMotion, AHandThatLeavesFarFromThePersonsOwnComesBack) {
+  HandCorrector corrector(settling());
+  std::vector<double> away_m;
+  std::vector<HandPose> drawn;
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 along(0.0, 0.0, 0.001 * std::min(i, 60));
+    const double depth_m = 0.08 - 0.01 * std::clamp(i - 90, 0, 16);  // then it rests in the air
+    const HandPose tracked = pressed_hand(depth_m, 0.0, along);
+    drawn.push_back(corrector.update(tracked, ball(), i * kFrame_ns).pose);
+    away_m.push_back(largest_motion(tracked, drawn.back()));
+  }
+  EXPECT_GT(away_m[106], 0.03);
+  EXPECT_LT(away_m[220], 0.01);  // a second later
+  EXPECT_LT(away_m[299], 0.002);
+  for (std::size_t i = 132; i < drawn.size(); ++i) {
+    EXPECT_LT(largest_motion(drawn[i - 1], drawn[i]), 0.002) << "frame " << i;
+  }
+}
+
 /// Skin that the person's own hovers over is drawn down to the ball and stays on it, however the
 /// ball turns under it: it has landed, and needs no cushion to land on.
 TEST(SettleMotion, AStrokeRunsOverABallAndOffItWithoutAKick) {
