@@ -95,7 +95,7 @@ TEST(SettleMotion, AHandThatLeavesABallIsNotThrownBack) {
 }
 
 /// Pressed deep into a ball's side a hand is drawn far from the person's own. In the air it comes
-/// back while that moves, and when that keeps still: it went by 6 mm a second then.
+/// back while that moves, and when that keeps still: it went by 12 mm a second then.
 TEST(SettleMotion, AHandThatLeavesFarFromThePersonsOwnComesBack) {
   HandCorrector corrector(settling());
   std::vector<double> away_m;
