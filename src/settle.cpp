@@ -90,8 +90,6 @@ class Settling {
 
   SettledHand run() {
     const int rounds = fresh_ ? kFirstRounds : kRounds;
-    // No joint goes farther unless the object pushes or pulls harder than this holds it back.
-    const double most_m = farthest_way();
     const double firmness = search_.strengths[kNearestSkin];  // so that no pull overcomes it
     PosedHand posed = pose_hand(model_, correction_);
     for (int round = 0; round < rounds; ++round) {
@@ -101,7 +99,7 @@ class Settling {
       HandFreedoms step = least_cost_step(problem, HandFreedoms::Zero());
       Correction corrected = after(step);
       PosedHand next = pose_hand(model_, corrected);
-      if (!fresh_ && hold_back(memory_.last.drawn, next.hand, most_m, firmness, posed, step,
+      if (!fresh_ && hold_back(memory_.last.drawn, next.hand, farthest_m_, firmness, posed, step,
                                search_.frame, memory_.rows)) {
         problem.rows = memory_.rows;
         step = least_cost_step(problem, step);
@@ -144,7 +142,10 @@ class Settling {
   double seconds_;       ///< as it counts
 
   bool fresh_ = false;
-  double motion_m_ = 0.0;   ///< of the tracked hand since the last frame
+  double motion_m_ = 0.0;  ///< of the tracked hand since the last frame
+  /// No joint goes farther in the frame unless the object pushes or pulls harder than this holds
+  /// it back.
+  double farthest_m_ = 0.0;
   JointVectors coasted_{};  ///< where the drawn joints would go on to
   Correction last_;
   Correction correction_;
@@ -206,6 +207,7 @@ void Settling::start() {
   search_.before = pose_flesh(memory_.last.drawn, model_.scale);
   search_.speed_mps = motion_m_ / seconds_;
   coasted_ = coasted_joints(memory_.last, memory_.drift, tracked, seconds_);
+  farthest_m_ = farthest_way();
 }
 
 /// How strongly the object may draw this hand.
@@ -268,9 +270,8 @@ SettleProblem Settling::problem_at(const PosedHand& posed, int round) const {
     return problem;
   }
   const double slack_m = kFreeRate_mps * seconds_;
-  const double most_m = farthest_way();
   const HandFreedoms rate =
-      in_air ? steps_of(most_m, most_m, most_m)
+      in_air ? steps_of(farthest_m_, farthest_m_, farthest_m_)
              : steps_of(kShiftRate * motion_m_ + slack_m, kTurnRate * motion_m_ + slack_m,
                         std::max(kBendRate * motion_m_ + slack_m, kRestRate_mps * seconds_));
   problem.rate.low = -rate - changed;

@@ -21,8 +21,8 @@ Result<PalmTrack> read_palms(const std::string& path) {
 
 }  // namespace
 
-void add_press_option(CLI::App& command, std::optional<double>& press_m) {
-  command
+CLI::Option* add_press_option(CLI::App& command, std::optional<double>& press_m) {
+  return command
       .add_option("--press", press_m,
                   "moves the object so that the palms' skin lies so deep at the median")
       ->type_name("M")

@@ -11,7 +11,7 @@
 namespace nade::cli {
 
 /// `--press`: how deep a recording's palms lie in the object, metres.
-void add_press_option(CLI::App& command, std::optional<double>& press_m);
+CLI::Option* add_press_option(CLI::App& command, std::optional<double>& press_m);
 
 /// Moves the object so that the palms of the recording at `path` lie so deep at the median.
 [[nodiscard]] Status press_onto(const PalmTrack& palms, const std::string& path, double press_m,

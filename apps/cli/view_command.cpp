@@ -10,6 +10,7 @@
 #include "nade/eval/synth.h"
 #include "object_options.h"
 #include "picture_options.h"
+#include "press_option.h"
 #include "window_options.h"
 
 namespace nade::cli {
@@ -78,11 +79,9 @@ void add_view(CLI::App& app, Action& action) {
   command->add_option("recording", arguments->recording, "the recording to open first")
       ->type_name("RECORDING");
   add_object_options(*command, arguments->object);
-  command
-      ->add_option("--press", arguments->press_m,
-                   "how deep the palms lie: of the recording at the median, or of the mouse's hand")
-      ->type_name("M")
-      ->check(CLI::Range(0.0, 0.2));
+  add_press_option(*command, arguments->press_m)
+      ->description(
+          "how deep the palms lie: of the recording at the median, or of the mouse's hand");
   add_method_options(*command, arguments->method);
   add_hand_options(*command, arguments->hands);
   add_show_option(*command, arguments->shown);
