@@ -18,6 +18,10 @@ constexpr std::array<std::string_view, 3> kMethodNames{"none", "paper", "nade"};
 constexpr double kJumpRatio = 4.0;
 constexpr double kJumpMargin_m = 0.002;
 constexpr double kLongestMotion_m = 0.03;
+/// A hand that was missing for longer is found anew. By the paper's method, when the release of
+/// what it had is over, but no sooner than the second.
+constexpr double kLongestGap_s = 0.2;
+constexpr double kShortestGap_s = 0.1;
 /// The mean hand length forgets frames older than about this many.
 constexpr std::int64_t kLengthFrames = 512;
 
@@ -53,8 +57,10 @@ double share_left(double elapsed_s, double release_s) {
   return 1.0 - t * t * (3.0 - 2.0 * t);
 }
 
+/// `to_ns` is not before `from_ns`; times of any origin may be farther apart than their type holds.
 double seconds(std::int64_t from_ns, std::int64_t to_ns) {
-  return 1e-9 * static_cast<double>(to_ns - from_ns);
+  return 1e-9 * static_cast<double>(static_cast<std::uint64_t>(to_ns) -
+                                    static_cast<std::uint64_t>(from_ns));
 }
 
 bool touches(const Contacts& contacts) {
@@ -100,7 +106,12 @@ HandCorrector::HandCorrector(const CorrectorOptions& options) : options_(options
   NADE_ASSERT(options.hand_length_m >= 0.0 && std::isfinite(options.hand_length_m));
   NADE_ASSERT(options.release_s >= 0.0 && options.release_s <= 1.0);
   NADE_ASSERT(options.contact.full_turn_depth_m >= 0.0);
-  NADE_ASSERT(options.settle.softness_depth_m > 0.0);
+  const SettleOptions& settle = options.settle;
+  NADE_ASSERT(settle.softness_m >= 0.0 && settle.softness_m <= 0.02);
+  NADE_ASSERT(settle.softness_depth_m > 0.0);
+  NADE_ASSERT(settle.friction.coefficient >= 0.0 && settle.friction.coefficient <= 2.0);
+  NADE_ASSERT(settle.friction.kinetic >= 0.0 && settle.friction.kinetic <= 1.0);
+  NADE_ASSERT(settle.friction.longest_lag_m >= 0.0);
   if (options.method != Method::nade) return;
   for (const Handedness side : {Handedness::left, Handedness::right}) {
     NADE_ASSERT(flesh_of(side).side == side && flesh_of(side).hand_length_m > 0.0);
@@ -166,7 +177,10 @@ void HandCorrector::start_frame(const HandPose& tracked, std::int64_t time_ns) n
   const bool goes_on = last_ && last_->tracked.side == tracked.side && time_ns >= last_->time_ns;
   if (!goes_on) reset();
   // What was touched before a gap says nothing about where the hand comes back.
-  if (last_ && seconds(last_->time_ns, time_ns) > std::max(options_.release_s, 0.1)) {
+  const double longest_gap_s = options_.method == Method::nade
+                                   ? kLongestGap_s
+                                   : std::max(options_.release_s, kShortestGap_s);
+  if (last_ && seconds(last_->time_ns, time_ns) > longest_gap_s) {
     contact_memory_ = {};
     for (SettleMemory& memory : settle_memory_) memory.last.tracked.reset();
     last_.reset();

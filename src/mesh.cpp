@@ -1,6 +1,7 @@
 #include "nade/mesh.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "mesh_normals.h"
@@ -123,6 +124,12 @@ Vec3 shading_normal(const SlotTriangle& triangle, const Vec3& weights) {
 /// What float arithmetic on squares of squares still holds, metres.
 constexpr float kLargest = 1e6F;
 
+/// Of all meshes, built and refitted: one that is built where another was is not taken for it.
+std::uint64_t new_shape() noexcept {
+  static std::atomic<std::uint64_t> shapes{0};
+  return ++shapes;
+}
+
 /// A little more, so that a bound includes what lies on it.
 float round_up(double value) { return static_cast<float>(value * (1.0 + 1e-6)) + 1e-18F; }
 
@@ -135,7 +142,7 @@ struct MeshSurface::Impl {
   detail::MeshNormals normals;
   detail::TriangleTree tree;
   std::size_t soup_vertices = 0;
-  std::uint64_t shape = 0;  ///< counts the refits
+  std::uint64_t shape = new_shape();
   Vec3 centre = Vec3::Zero();
   double radius = 0.0;
 
@@ -315,7 +322,7 @@ void MeshSurface::refit(std::span<const Eigen::Vector3f> vertices) noexcept {
     if ((moved.array().abs() <= kLargest).all()) impl_->mesh.vertices[i] = moved;
   }
   impl_->follow_vertices();
-  ++impl_->shape;
+  impl_->shape = new_shape();
 }
 
 std::uint64_t MeshSurface::shape() const noexcept { return impl_->shape; }

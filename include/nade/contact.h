@@ -47,7 +47,8 @@ struct ContactOptions {
   double push_through_limit_m = 0.25;
 };
 
-/// A part that touches. World frame.
+/// A part that touches. World frame. By method `nade` the ray begins at the tracked skin whose
+/// drawn skin is the nearest to the surface, `depth_m` is the part's deepest, and `turn` stays 0.
 struct PartContact {
   Vec3 ray_origin = Vec3::Zero();       ///< the tested point, in or behind the solid
   Vec3 ray_direction = Vec3::UnitY();   ///< unit

@@ -103,7 +103,7 @@ class HandCorrector {
   std::array<SettleMemory, 2> settle_memory_;  ///< by index_of(Handedness)
   CorrectedHand result_;
   std::optional<Frame> last_;
-  double hand_length_m_ = 0.0;  ///< mean over the frames so far: bones do not grow
+  double hand_length_m_ = 0.0;  ///< mean over the last few seconds: bones do not grow
   std::int64_t frames_ = 0;
   Correction residue_;  ///< what is being released
   std::optional<std::int64_t> release_start_ns_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -51,8 +52,9 @@ class Surface {
   [[nodiscard]] virtual std::optional<SurfacePoint> closest_point(
       const Vec3& query, double max_distance, SurfaceHint& hint) const noexcept = 0;
 
-  /// Another number whenever the surface has another shape, so that answers are not remembered
-  /// beyond it. The default is for surfaces that keep theirs.
+  /// Another number whenever the surface has another shape, and for one that is built in another's
+  /// place in memory, so that answers are not remembered beyond it. The default is for surfaces
+  /// that keep theirs.
   [[nodiscard]] virtual std::uint64_t shape() const noexcept { return 0; }
 };
 
@@ -70,6 +72,9 @@ class SphereSurface final : public Surface {
   /// `radius_m` > 0.
   explicit SphereSurface(double radius_m);
   [[nodiscard]] double radius() const { return radius_; }
+  [[nodiscard]] std::uint64_t shape() const noexcept override {
+    return std::bit_cast<std::uint64_t>(radius_);
+  }
   [[nodiscard]] std::optional<RayHit> first_hit(const Ray& ray) const noexcept override;
   [[nodiscard]] std::optional<SurfacePoint> closest_point(
       const Vec3& query, double max_distance, SurfaceHint& hint) const noexcept override;
