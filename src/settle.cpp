@@ -7,6 +7,7 @@
 #include "ramps.h"
 #include "settle_forces.h"
 #include "settle_frame.h"
+#include "settle_leave.h"
 #include "settle_normal.h"
 #include "settle_pace.h"
 #include "settle_slide.h"
@@ -40,6 +41,8 @@ constexpr double kRateInAir_mps = 0.03;
 constexpr double kAtRest_mps = 0.015;
 constexpr double kCatchUpTime_s = 0.5;
 constexpr double kFastestAtRest_mps = 0.12;
+/// What is let go comes back as fast as it likes.
+constexpr double kAnyWay_m = 10.0;
 constexpr double kWallStiffness = 1e5;
 /// A joint's mass: a spring of this over the square of the frame's seconds keeps it going. Less in
 /// the air, where the hand comes back to the tracked one.
@@ -50,8 +53,9 @@ constexpr double kVelocityTime_s = 0.016;
 /// The direction of the object's push is smoothed over this time.
 constexpr double kPushTime_s = 0.20506;
 
-/// A hand that moves farther from one frame to the next was lost and found.
-constexpr double kTeleport_m = 0.15;
+/// A hand that moves farther from one frame to the next, or whose object grows by so much under it,
+/// was lost and found: its pads would not see from so far how deep they are.
+constexpr double kTeleport_m = 0.1;
 constexpr double kShortestFrame_s = 0.001;
 constexpr double kLongestFrame_s = 0.05;
 
@@ -65,8 +69,6 @@ constexpr double kShorterSteps = 0.85;
 constexpr double kFirstSettled_m = 1e-6;
 /// In the air, a correction smaller than this is over.
 constexpr double kReleased_m = 0.0001;
-/// A hand that is found anew is got out of the object if it lies no deeper than this.
-constexpr double kDeepest_m = 0.3;
 constexpr double kLongestTurn_rad = 0.3;
 constexpr double kPalmThickness_m = 0.02;
 
@@ -124,7 +126,9 @@ class Settling {
   void find_strengths();
   [[nodiscard]] Correction after(const HandFreedoms& step) const;
   [[nodiscard]] SettleProblem problem_at(const PosedHand& posed, int round) const;
-  [[nodiscard]] bool is_in_air() const { return !fresh_ && memory_.push.isZero(); }
+  [[nodiscard]] bool is_in_air() const {
+    return !fresh_ && (memory_.push.isZero() || memory_.held_up());
+  }
   [[nodiscard]] double farthest_way() const;
   [[nodiscard]] bool is_in_contact() const;
   void find_push(const Vec3& force);
@@ -165,25 +169,15 @@ void Settling::find_motion() {
 }
 
 void Settling::start() {
-  const std::uint64_t shape = object_.surface().shape();
-  const bool same_surface = memory_.surface == &object_.surface();
   const HandPose& tracked = model_.tracked;
   find_motion();
-  fresh_ = !memory_.last.tracked || motion_m_ > kTeleport_m;
-  if (fresh_ || !same_surface || object_.scale() != memory_.scale || shape != memory_.shape) {
-    for (PadMemory& pad : memory_.pads) {
-      pad.plane.reset();
-      pad.clearance_m = pad.free_m = 0.0;
-    }
-  }
+  const double growth = std::abs(object_.scale() / memory_.scale - 1.0);
+  const double grown_m = growth * tracked[Joint::palm].position.norm();
+  fresh_ = !memory_.last.tracked || motion_m_ + grown_m > kTeleport_m;
   if (fresh_) {
-    memory_.last = {};
-    memory_.push = memory_.normal = Vec3::Zero();
-    forget_slide(memory_);
-    memory_.geometric.setZero();
-    memory_.velocity.fill(Vec3::Zero());
-    memory_.height_m = memory_.nearest_m = memory_.deepest_m = 0.0;
-    break_motion(memory_.unrest);
+    forget_frame(memory_);
+  } else if (object_.scale() != memory_.scale || object_.surface().shape() != memory_.shape) {
+    forget_planes(memory_);
   }
   search_.seconds = seconds_;
   search_.nearest_m = memory_.nearest_m;
@@ -196,6 +190,7 @@ void Settling::start() {
   search_.push = push_;
   normal_ = normal_under_palm(object_, tracked[Joint::palm], push_, motion_m_, seconds_, memory_);
   search_.frame = surface_frame(normal_, tracked[Joint::palm].rotation);
+  if (!fresh_) follow_leaving(search_, memory_);
   find_strengths();
   correction_ = after(HandFreedoms::Zero());  // into the range of this frame's pose
   last_ = correction_;
@@ -216,6 +211,7 @@ void Settling::find_strengths() {
   const FingerCurls curls = curls_of(model_);
   if (memory_.push.isZero()) memory_.curl_at_touch = curls;
   search_.strengths = pull_strengths(memory_.unrest, curls, memory_.curl_at_touch);
+  search_.pulls = !memory_.held_up();
   // On a hand found anew no pull has to come first.
   search_.pulls_before = fresh_ ? search_.strengths : memory_.pulls;
 }
@@ -241,7 +237,8 @@ SettleProblem Settling::problem_at(const PosedHand& posed, int round) const {
   HandFreedoms away = step_between({}, correction_, search_.frame);
   away.head<3>() -= search_.frame.transpose() * (memory_.carried + memory_.drawn_lag);
   const bool in_air = is_in_air();
-  problem.springs.add(in_air ? stiffness_in_air(away) : stiffness_of_pose(away), -away);
+  const HandFreedoms slack = memory_.let_go ? HandFreedoms::Zero() : away;
+  problem.springs.add(in_air ? stiffness_in_air(slack) : stiffness_of_pose(slack), -away);
   // The forces on a hand found anew are not yet those that it will rest with.
   if (!fresh_) problem.springs.add(memory_.geometric, HandFreedoms::Zero());
 
@@ -282,6 +279,7 @@ SettleProblem Settling::problem_at(const PosedHand& posed, int round) const {
 /// How far a joint goes in the frame at the most: on the surface as far as the tracked hand's
 /// fastest, and a little.
 double Settling::farthest_way() const {
+  if (memory_.let_go) return kAnyWay_m;
   if (!is_in_air()) {
     return std::max(motion_m_ + kFreeRate_mps * seconds_, kRestRate_mps * seconds_);
   }
@@ -314,7 +312,7 @@ void Settling::find_push(const Vec3& force) {
 }
 
 void Settling::remember_contact() {
-  if (push_.isZero() || memory_.normal.isZero()) {
+  if (push_.isZero() || memory_.normal.isZero() || memory_.held_up()) {
     forget_slide(memory_);
   } else {
     const Vec3& palm = model_.tracked[Joint::palm].position;
@@ -324,7 +322,7 @@ void Settling::remember_contact() {
                    options_.friction, memory_);
   }
   memory_.height_m = std::max(0.0, push_.dot(correction_.palm.shift));
-  memory_.nearest_m = patches_[kNearestSkin].gap_m;
+  memory_.nearest_m = patches_[kNearestSkin].gap_m + search_.sink_m;
   memory_.deepest_m = patches_[kNearestSkin].depth_m;
   memory_.push = push_;
   memory_.normal = push_.isZero() ? push_ : normal_;
@@ -372,10 +370,17 @@ SettledHand settle_hand(const HandPose& tracked, const HandFlesh& flesh, double 
                         const Object& object, double seconds, const SettleOptions& options,
                         SettleMemory& memory) noexcept {
   if (memory.surface != &object.surface()) memory.last.tracked.reset();
-  if (!memory.last.tracked) memory.home = object.placement().pose;
-  const HandPose seen = seen_from(memory.home, tracked);
-  const Pose place = seen_from(memory.home, object.placement().pose);
+  const Pose home = memory.last.tracked ? memory.home : object.placement().pose;
+  const HandPose seen = seen_from(home, tracked);
+  const Pose place = seen_from(home, object.placement().pose);
   const HandPose hand = moved(seen, place.inverse());
+  if (!is_usable(hand)) {  // the object is nowhere, or too far away for numbers
+    forget_hand(memory);
+    SettledHand settled;
+    settled.hand = tracked;
+    return settled;
+  }
+  memory.home = home;
   const ScaledSurface surface(object);
   Settling settling(hand, seen, flesh, rounded(scale), surface, seconds, options, memory);
   return brought_back(memory.home * place, tracked, settling.run());

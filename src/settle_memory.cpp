@@ -1,4 +1,5 @@
 #include "nade/settle.h"
+#include "settle_slide.h"
 #include "settle_unrest.h"
 #include "touch_finder.h"
 
@@ -13,6 +14,29 @@ SettleMemory settle_memory(const HandFlesh& flesh) {
   memory.drift.fill(Vec3::Zero());
   memory.unrest = no_unrest();
   return memory;
+}
+
+void forget_planes(SettleMemory& memory) noexcept {
+  for (PadMemory& pad : memory.pads) {
+    pad.plane.reset();
+    pad.clearance_m = pad.free_m = 0.0;
+  }
+}
+
+void forget_frame(SettleMemory& memory) noexcept {
+  memory.last = {};
+  memory.push = memory.normal = Vec3::Zero();
+  forget_slide(memory);
+  memory.clear_s.reset();
+  memory.let_go = false;
+  memory.last_inside = 0;
+  memory.geometric.setZero();
+  memory.velocity.fill(Vec3::Zero());
+  memory.joints.fill(Vec3::Zero());
+  memory.travel_m = memory.height_m = memory.nearest_m = memory.deepest_m = 0.0;
+  memory.under_palm = memory.under_hand = memory.under_nearest = {};
+  memory.pads.assign(memory.pads.size(), {});
+  break_motion(memory.unrest);
 }
 
 void forget_hand(SettleMemory& memory) noexcept {

@@ -287,7 +287,8 @@ void add_pulls(const TouchSearch& search, const PosedHand& posed, const PatchTou
     const bool nearest = i == kNearestSkin;
     const bool palm = i == index_of(Part::palm);
     const PullGrowth& growth = nearest ? kTouchPull : palm ? kPalmPull : kPartPull;
-    memory.pulls[i] = patch.point ? pull_strength(search, patch, growth, i) : 0.0;
+    const bool pulled = search.pulls && patch.point;
+    memory.pulls[i] = pulled ? pull_strength(search, patch, growth, i) : 0.0;
     if (memory.pulls[i] == 0.0) continue;
     ContactRow& row =
         memory.rows.emplace_back(motion_along(posed, *patch.point, patch.normal, search.frame));
@@ -322,6 +323,10 @@ PatchTouches find_touches(const TouchSearch& search, const PosedHand& posed,
   memory.rows.clear();
   count_travel(posed.flesh, memory);
   PatchTouches patches;
+  if (memory.let_go) {
+    memory.pulls.fill(0.0);
+    return patches;
+  }
   double fastest_mps = 0.0;
   for (const Vec3& velocity : search.velocity) {
     fastest_mps = std::max(fastest_mps, landing_part(search, velocity));

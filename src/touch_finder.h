@@ -31,6 +31,10 @@ struct PatchTouch {
 using PatchTouches = std::array<PatchTouch, kPulls>;
 inline constexpr std::size_t kNearestSkin = kPartCount;
 
+/// No surface is looked for farther away: a hand that is found anew is got out of the object if it
+/// lies no deeper.
+inline constexpr double kDeepest_m = 0.3;
+
 /// From farther than this a patch is not drawn to the surface.
 inline constexpr double kPullReach_m = 0.050038;
 
@@ -48,13 +52,14 @@ struct TouchSearch {
   double seconds = 0.0;          ///< since the last frame
   PullStrengths pulls_before{};  ///< `SettleMemory::pulls` of the last frame
   PullStrengths strengths{};
-  JointVectors velocity{};                              ///< of the tracked joints, smoothed
-  double speed_mps = 0.0;                               ///< of the tracked hand's fastest joint
-  double nearest_m = 0.0;                               ///< `SettleMemory::nearest_m`
-  double deepest_m = 0.0;                               ///< `SettleMemory::deepest_m`
-  Vec3 push = Vec3::Zero();                             ///< unit, or zero in the air
-  double row_reach_m = 0.0;                             ///< skin nearer than this gets a row
-  double sink_m = 0.0;                                  ///< so far in is still out
+  bool pulls = true;         ///< whether anything is drawn to the surface
+  JointVectors velocity{};   ///< of the tracked joints, smoothed
+  double speed_mps = 0.0;    ///< of the tracked hand's fastest joint
+  double nearest_m = 0.0;    ///< `SettleMemory::nearest_m`
+  double deepest_m = 0.0;    ///< `SettleMemory::deepest_m`
+  Vec3 push = Vec3::Zero();  ///< unit, or zero in the air
+  double row_reach_m = 0.0;  ///< skin nearer than this gets a row
+  double sink_m = 0.0;       ///< so far in is still out
   Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  ///< in which the rows' wrist is counted
 };
 

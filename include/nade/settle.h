@@ -111,7 +111,15 @@ using FingerCurls = std::array<double, kDigitCount>;
 
 /// What settle_hand remembers of a hand from frame to frame, and room to work in. All of it is in
 /// the object's frame, and in the world's lengths; but the hand's unrest is as seen from `home`.
+/// A copy would lack that room: it can only be moved.
 struct SettleMemory {
+  SettleMemory() = default;
+  SettleMemory(const SettleMemory&) = delete;
+  SettleMemory& operator=(const SettleMemory&) = delete;
+  SettleMemory(SettleMemory&&) noexcept = default;
+  SettleMemory& operator=(SettleMemory&&) noexcept = default;
+  ~SettleMemory() = default;
+
   Pose home;  ///< where the object was when the hand was found, in the world
   SettledFrame last;
   Correction before;                 ///< that of the frame before it
@@ -131,6 +139,13 @@ struct SettleMemory {
   Vec3 lag = Vec3::Zero();           ///< along the surface, by friction
   Vec3 drawn_lag = Vec3::Zero();     ///< the same, smoothed
   bool slips = false;
+  /// While the tracked hand is out of the object and the drawn one far from it: how long that has
+  /// been stuck; below 0 at first, when it may be on its way out.
+  std::optional<double> clear_s;
+  /// Whether the object holds up a hand that has left it.
+  [[nodiscard]] bool held_up() const { return clear_s && *clear_s >= 0.0; }
+  bool let_go = false;          ///< the drawn hand comes back through the object
+  std::size_t last_inside = 0;  ///< the pad whose tracked skin was last found in the object
   Unrest unrest;
   FingerCurls curl_at_touch{};                    ///< of the tracked hand; in the air, now
   HandFreedoms geometric = HandFreedoms::Zero();  ///< stiffness, of the last round's contacts
@@ -145,6 +160,12 @@ struct SettleMemory {
 
 /// A memory with room for a hand's pads; settle_hand allocates nothing then.
 [[nodiscard]] SettleMemory settle_memory(const HandFlesh& flesh);
+
+/// The surface is another, or the hand elsewhere: what its pads saw does not count.
+void forget_planes(SettleMemory& memory) noexcept;
+
+/// The hand is found anew: what is known of its last frame, and of the surface, does not count.
+void forget_frame(SettleMemory& memory) noexcept;
 
 /// The next frame's hand is another's: nothing is known of it.
 void forget_hand(SettleMemory& memory) noexcept;

@@ -1,0 +1,83 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "nade/corrector.h"
+#include "nade/mesh.h"
+#include "support/hand_checks.h"
+#include "support/meshes.h"
+#include "support/pressed_hand.h"
+
+// Hands that an object holds up after the person's own has left it.
+
+namespace nade {
+namespace {
+
+using test::kFrame_ns;
+using test::lowest_skin;
+using test::pressed_hand;
+using test::settling;
+
+/// Its top at y = 0.
+std::unique_ptr<MeshSurface> block(const test::Vec3f& half_size) {
+  const test::Vec3f middle(0.0F, -half_size.y(), 0.0F);
+  return MeshSurface::build(test::shifted(test::box_mesh(half_size), middle), "block").value();
+}
+
+/// The share of a second from `from_s` on, both 0 to 1.
+double gone(int frame, double from_s) { return std::clamp(frame / 90.0 - from_s, 0.0, 1.0); }
+
+/// Frames of six seconds: how far the drawn hand is from the tracked one in each.
+std::vector<double> away_from(const std::function<HandPose(int)>& tracked_at, const Object& object,
+                              HandPose& drawn) {
+  HandCorrector corrector(settling());
+  std::vector<double> away_m;
+  for (int i = 0; i < 540; ++i) {
+    const HandPose tracked = tracked_at(i);
+    drawn = corrector.update(tracked, object, i * kFrame_ns).pose;
+    away_m.push_back(largest_motion(tracked, drawn));
+  }
+  return away_m;
+}
+
+/// From the side into a block, up, and to rest above it: it stayed at the side for
+/// good.
+TEST(SettleLeave, AHandThatIsLiftedOverAnEdgeComesBack) {
+  const auto surface = block({0.2F, 0.1F, 0.2F});
+  HandPose drawn;
+  const auto away_m = away_from(
+      [](int i) {
+        const double depth_m = 0.06 - 0.12 * gone(i, 1.5);
+        return pressed_hand(depth_m, 0.0, {0.35 - 0.18 * gone(i, 0.0), 0.0, 0.0});
+      },
+      Object(*surface), drawn);
+  EXPECT_GT(away_m[130], 0.05);
+  EXPECT_LT(away_m.back(), 0.001);
+}
+
+/// Down through a block and on, to rest below it: it hung on the upper side for good.
+TEST(SettleLeave, AHandThatWentRightThroughComesBackInTheEnd) {
+  const auto surface = block({0.05F, 0.05F, 0.05F});
+  HandPose drawn;
+  const auto away_m = away_from([](int i) { return pressed_hand(-0.1 + 0.4 * gone(i, 0.0)); },
+                                Object(*surface), drawn);
+  EXPECT_GT(away_m[90], 0.2);
+  EXPECT_LT(away_m[90 + 180], 0.05);
+  EXPECT_LT(away_m.back(), 0.001);
+}
+
+/// A thin board is no reason to be let go.
+TEST(SettleLeave, AHandPressedThroughABoardStaysOnTheSideItCameFrom) {
+  const auto surface = block({0.2F, 0.005F, 0.2F});
+  const Object object(*surface);
+  HandPose drawn;
+  (void)away_from([](int i) { return pressed_hand(-0.06 + 0.14 * gone(i, 0.0)); }, object, drawn);
+  EXPECT_GT(drawn[Joint::palm].position.y(), 0.0);
+  EXPECT_LT(std::abs(lowest_skin(drawn, object)), 0.001);
+}
+
+}  // namespace
+}  // namespace nade

@@ -1,0 +1,119 @@
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <type_traits>
+
+#include "nade/corrector.h"
+#include "support/hand_checks.h"
+#include "support/pressed_hand.h"
+
+// What is remembered from frame to frame, and what has to be forgotten.
+
+namespace nade {
+namespace {
+
+using test::all_finite;
+using test::ball;
+using test::kFrame_ns;
+using test::lowest_skin;
+using test::plane;
+using test::pressed_hand;
+using test::settling;
+
+// A copy had no room for its rows: it allocated in the frame, and wrote to what it had freed.
+static_assert(!std::is_copy_constructible_v<HandCorrector>);
+static_assert(std::is_nothrow_move_constructible_v<HandCorrector>);
+
+/// A hitch of 150 ms: the pads did not see so far, took the solid for air, and the hand stayed in
+/// it.
+TEST(SettleMemory, AHandThatSinksFarInOneFrameIsDrawnOut) {
+  for (const double depth_m : {0.04, 0.07, 0.09, 0.11, 0.13}) {
+    HandCorrector corrector(settling());
+    HandPose drawn;
+    for (int i = 0; i < 10; ++i) {
+      drawn = corrector.update(pressed_hand(-0.01), plane(), i * kFrame_ns).pose;
+    }
+    for (int i = 0; i < 90; ++i) {
+      const std::int64_t time_ns = (10 + 14 + i) * kFrame_ns;
+      drawn = corrector.update(pressed_hand(depth_m), plane(), time_ns).pose;
+    }
+    EXPECT_GT(lowest_skin(drawn, plane()), -0.001) << depth_m << " m deep";
+  }
+}
+
+TEST(SettleMemory, ABallThatGrowsUnderAHandDoesNotSwallowIt) {
+  for (const double scale : {1.3, 1.7, 2.5}) {
+    HandCorrector corrector(settling());
+    HandPose drawn;
+    Placement placement{{{0.0, -0.15, 0.0}, Quat::Identity()}, 1.0};
+    for (int i = 0; i < 180; ++i) {
+      if (i == 90) placement.scale = scale;
+      drawn =
+          corrector.update(pressed_hand(0.01), Object(test::kBall, placement), i * kFrame_ns).pose;
+    }
+    EXPECT_GT(lowest_skin(drawn, Object(test::kBall, placement)), -0.001) << scale;
+  }
+}
+
+/// One such frame made the hand NaN for good.
+TEST(SettleMemory, AnObjectThatIsNowhereForAFrameLosesNothing) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Object nowhere(test::kPlane, {{{0.0, nan, 0.0}, Quat::Identity()}, 1.0});
+  for (const int lost : {0, 50}) {
+    HandCorrector corrector(settling());
+    HandPose drawn;
+    for (int i = 0; i < 100; ++i) {
+      const Object& object = i == lost ? nowhere : plane();
+      drawn = corrector.update(pressed_hand(0.02), object, i * kFrame_ns).pose;
+      ASSERT_TRUE(all_finite(drawn)) << "frame " << i;
+    }
+    EXPECT_GT(lowest_skin(drawn, plane()), -0.001);
+  }
+}
+
+/// A surface built where another was has the same address.
+TEST(SettleMemory, AnotherBallInItsPlaceIsSeen) {
+  HandCorrector corrector(settling());
+  std::optional<SphereSurface> surface;
+  HandPose drawn;
+  for (int i = 0; i < 60; ++i) {
+    surface.emplace(0.1 + 0.001 * i);
+    const Object object(*surface, {{{0.0, -0.12, 0.0}, Quat::Identity()}, 1.0});
+    drawn = corrector.update(pressed_hand(0.0), object, i * kFrame_ns).pose;
+    ASSERT_GT(lowest_skin(drawn, object), -0.002) << "frame " << i;
+  }
+}
+
+/// A frame far out, and whatever was stroked before: after a reset all of it is as if it was not.
+TEST(SettleMemory, AResetForgetsEverything) {
+  HandCorrector used(settling());
+  for (int i = 0; i < 60; ++i) {
+    (void)used.update(pressed_hand(0.02, 0.1, {0.002 * i, 0.0, 0.0}), ball(), i * kFrame_ns);
+  }
+  (void)used.update(pressed_hand(0.0, 0.0, {1e14, 0.0, 0.0}), ball(), 60 * kFrame_ns);
+  used.reset();
+  HandCorrector anew(settling());
+  for (int i = 0; i < 90; ++i) {
+    const HandPose tracked = pressed_hand(-0.05 + 0.001 * i, 0.0, {0.001 * i, 0.0, 0.0});
+    const HandPose& expected = anew.update(tracked, ball(), i * kFrame_ns).pose;
+    const HandPose& drawn = used.update(tracked, ball(), i * kFrame_ns).pose;
+    for (std::size_t j = 0; j < kJointCount; ++j) {
+      ASSERT_EQ(drawn.joints[j].position, expected.joints[j].position) << "frame " << i;
+    }
+  }
+}
+
+/// Times of any origin are farther apart than 64 bits hold.
+TEST(SettleMemory, TimesMayBeAnyWayApart) {
+  HandCorrector corrector(settling());
+  constexpr std::int64_t kFirst_ns = std::numeric_limits<std::int64_t>::min();
+  constexpr std::int64_t kLast_ns = std::numeric_limits<std::int64_t>::max();
+  (void)corrector.update(pressed_hand(0.02), plane(), kFirst_ns);
+  const HandPose& drawn = corrector.update(pressed_hand(0.03), plane(), kLast_ns).pose;
+  EXPECT_GT(lowest_skin(drawn, plane()), -0.001);
+}
+
+}  // namespace
+}  // namespace nade
