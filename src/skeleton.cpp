@@ -5,14 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace nade {
 namespace {
 
 constexpr double kShortestBone_m = 1e-5;
-
-constexpr double rad(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
 Quat turn_x(double angle) { return {std::cos(0.5 * angle), std::sin(0.5 * angle), 0.0, 0.0}; }
 Quat turn_y(double angle) { return {std::cos(0.5 * angle), 0.0, std::sin(0.5 * angle), 0.0}; }
@@ -60,16 +57,16 @@ Quat relaxed_thumb(Handedness side) {
 }  // namespace
 
 HingeRange range_of_motion(Digit digit, std::size_t hinge) noexcept {
-  constexpr double kFinger = rad(20.0);
+  constexpr double kFinger = 20.0 * kDegree;
   constexpr std::array<HingeRange, kHingeCount> kFingerRanges{{
-      {-rad(45.0), rad(90.0), -kFinger, kFinger},
-      {0.0, rad(110.0), 0.0, 0.0},
-      {-rad(10.0), rad(85.0), 0.0, 0.0},
+      {-45.0 * kDegree, 90.0 * kDegree, -kFinger, kFinger},
+      {0.0, 110.0 * kDegree, 0.0, 0.0},
+      {-10.0 * kDegree, 85.0 * kDegree, 0.0, 0.0},
   }};
   constexpr std::array<HingeRange, kHingeCount> kThumbRanges{{
-      {-rad(20.0), rad(15.0), -rad(35.0), rad(35.0)},
-      {0.0, rad(50.0), 0.0, 0.0},
-      {-rad(20.0), rad(80.0), 0.0, 0.0},
+      {-20.0 * kDegree, 15.0 * kDegree, -35.0 * kDegree, 35.0 * kDegree},
+      {0.0, 50.0 * kDegree, 0.0, 0.0},
+      {-20.0 * kDegree, 80.0 * kDegree, 0.0, 0.0},
   }};
   return digit == Digit::thumb ? kThumbRanges[hinge] : kFingerRanges[hinge];
 }

@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <numeric>
 #include <set>
 #include <string>
@@ -21,8 +20,6 @@
 
 namespace nade {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 class Dog : public testing::Test {
  protected:

@@ -172,11 +172,11 @@ TEST(Mesh, EightyThousandTrianglesAreLikeTheSphere) {
     const auto ours = mesh->closest_point(query, 1.0, hint);
     const auto exact = sphere.closest_point(query, 1.0, hint);
     EXPECT_NEAR(ours->signed_distance, exact->signed_distance, 5e-5);
-    EXPECT_GT(ours->normal.dot(exact->normal), std::cos(0.5 * std::numbers::pi / 180.0));
+    EXPECT_GT(ours->normal.dot(exact->normal), std::cos(0.5 * kDegree));
     const Ray ray{0.1 * random.direction(), random.direction()};
     EXPECT_NEAR(mesh->first_hit(ray)->distance, sphere.first_hit(ray)->distance, 2e-4);
     EXPECT_GT(mesh->first_hit(ray)->normal.dot(sphere.first_hit(ray)->normal),
-              std::cos(0.5 * std::numbers::pi / 180.0));
+              std::cos(0.5 * kDegree));
   }
 }
 

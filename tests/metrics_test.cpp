@@ -5,7 +5,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numbers>
 #include <random>
 #include <set>
 #include <string>
@@ -21,7 +20,6 @@ namespace {
 using test::at_height;
 using test::toy_mesh;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kRate = 90.0;
 /// Of the joints: the palm's skin is then 30 mm deep in a plane, all other skin 28 mm.
 constexpr double kDeep = -0.02;

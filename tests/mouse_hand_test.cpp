@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <numbers>
 
 #include "nade/eval/noise.h"
 #include "nade/eval/press.h"
@@ -15,7 +14,6 @@ namespace nade::viewer {
 namespace {
 
 constexpr double kStep_s = 1.0 / 60.0;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// From above, with -Z up in the picture.
 Aim from_above(double x, double z) {

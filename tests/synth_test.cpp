@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -14,7 +13,6 @@
 namespace nade {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::array<Stroke, 5> kStrokes{Stroke::line, Stroke::circle, Stroke::zigzag, Stroke::curl,
                                          Stroke::press};
 

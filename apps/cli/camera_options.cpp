@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 
 #include "number_list.h"
@@ -158,7 +157,7 @@ draw::Camera CameraPlan::at(std::int64_t time_ns, double aspect) const {
   const Glimpse hand = where(time_ns);
   const Vec3 target = options_.target.value_or(hand.center);
   std::optional<double> vertical_rad;
-  if (options_.fov_deg) vertical_rad = *options_.fov_deg * std::numbers::pi / 180.0;
+  if (options_.fov_deg) vertical_rad = *options_.fov_deg * kDegree;
   if (options_.eye) {
     // Locked, the eye keeps its place beside the hand.
     const Vec3 moved =

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "console.h"
@@ -24,7 +23,6 @@ constexpr int kRowTitle = 230;
 constexpr int kHeader = 190;
 constexpr int kLegend = 270;
 constexpr double kPanelAspect = 1.16;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 const Color kInk(0.015F, 0.02F, 0.03F);
 const Color kQuiet(0.12F, 0.14F, 0.17F);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
 #include <vector>
 
 #include "nade/io/hand_file.h"
@@ -94,7 +93,7 @@ void add_open_points(CLI::App& command, CorrectorOptions& options) {
       .add_option_function<double>(
           "--max-ray-turn",
           [&options](const double& degrees) {
-            options.fingers.max_ray_turn_rad = degrees * std::numbers::pi / 180.0;
+            options.fingers.max_ray_turn_rad = degrees * kDegree;
           },
           "farthest turn of a fingertip's ray toward extension (default 80)")
       ->type_name("DEG")

@@ -3,7 +3,6 @@
 #include <charconv>
 #include <cstdint>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -60,7 +59,7 @@ void add_parsed(CLI::App& command, const std::string& name, T& value,
 
 Status run_synth(const SynthArguments& arguments) {
   SynthOptions options = arguments.synth;
-  options.tilt_rad = arguments.tilt_deg * std::numbers::pi / 180.0;
+  options.tilt_rad = arguments.tilt_deg * kDegree;
   const Result<PlacedObject> placed = load_placed(arguments.object);
   if (!placed) return placed.error();
   const Result<HandPose> relaxed = load_relaxed_hand(options.side);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace nade::viewer {
 namespace {
@@ -11,9 +10,9 @@ constexpr double kRadiansPerPixel = 0.006;
 constexpr double kZoomPerNotch = 0.88;
 constexpr double kNearest_m = 0.08;
 constexpr double kFarthest_m = 8.0;
-constexpr double kSteepest_rad = 89.0 * std::numbers::pi / 180.0;
+constexpr double kSteepest_rad = 89.0 * kDegree;
 /// Higher than pictures are taken from: a hand is steered best when one sees its back.
-constexpr double kThreeQuarter_rad = 42.0 * std::numbers::pi / 180.0;
+constexpr double kThreeQuarter_rad = 42.0 * kDegree;
 constexpr double kFollow_s = 0.25;  // in which a first-person eye comes after the hand
 
 }  // namespace

@@ -8,7 +8,6 @@
 namespace nade::viewer {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kTurnPerSecond_rad = 90.0 * kDegree;
 constexpr double kTiltPerSecond_rad = 60.0 * kDegree;
 constexpr double kTiltMost_rad = 60.0 * kDegree;

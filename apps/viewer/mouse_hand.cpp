@@ -18,7 +18,7 @@ constexpr double kNormal_s = 0.05;       // time in which the hand turns with th
 constexpr double kHeading_s = 0.12;
 constexpr double kMotionHeading_s = 0.35;
 /// One's hand comes from one's side, not from one's middle.
-constexpr double kInward_rad = 30.0 * std::numbers::pi / 180.0;
+constexpr double kInward_rad = 30.0 * kDegree;
 constexpr double kMovingSpeed = 0.04;  // m/s: slower than this has no direction
 constexpr double kHold_s = 0.045;      // time in which wheel and keys take effect
 constexpr double kNear_m = 0.5;        // how far the surface is looked for

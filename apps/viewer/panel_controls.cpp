@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 
 #include "panels.h"
 
@@ -13,7 +12,6 @@ namespace {
 
 using Lit = UiKit::Lit;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr float kGap = 6.0F;
 constexpr const char* kAlive = ":alive";
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <numbers>
-
 #include "nade/contact.h"
 #include "nade/skeleton.h"
 
@@ -10,7 +8,7 @@ namespace nade {
 /// The open points of the paper's finger step.
 struct FingerOptions {
   /// The farthest a fingertip's ray turns toward extension, radians, 0 to pi/2.
-  double max_ray_turn_rad = 80.0 * std::numbers::pi / 180.0;
+  double max_ray_turn_rad = 80.0 * kDegree;
 };
 
 /// What was added to each digit's movable angles, radians.

@@ -2,8 +2,12 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <numbers>
 
 namespace nade {
+
+/// One degree, in radians.
+inline constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// A point or direction; metres where it is a position. Right-handed, +Y up, -Z forward.
 using Vec3 = Eigen::Vector3d;

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 namespace nade::draw {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kSteepest = 89.0 * kDegree;
 /// What is framed fills this share of the picture's height.
 constexpr double kFill = 0.9;

@@ -8,8 +8,7 @@
 namespace nade {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
-constexpr double kCurling_rad = 15.0 / kDegrees;
+constexpr double kCurling_rad = 15.0 * kDegree;
 
 /// The joint that a hinge's joint hangs on: of the thumb's first, the wrist.
 Joint parent_of(Digit digit, std::size_t hinge) {
@@ -48,7 +47,7 @@ double BendMeter::take_bend_added(const HandPose& tracked, const HandPose& corre
       const Quat before = relative_rotation(tracked, digit_at(digit), hinge);
       const Quat after = relative_rotation(corrected, digit_at(digit), hinge);
       double& added = added_deg[digit * kHingeCount + hinge];
-      added = kDegrees * before.angularDistance(after);
+      added = before.angularDistance(after) / kDegree;
       added_deg_.add(added);
     }
   }
@@ -103,7 +102,7 @@ Bend BendMeter::finish() const {
   Bend bend;
   bend.added_median_deg = added_deg_.quantile(0.5);
   bend.added_p95_deg = added_deg_.quantile(0.95);
-  if (violation_max_) bend.limit_violation_max_deg = kDegrees * *violation_max_;
+  if (violation_max_) bend.limit_violation_max_deg = *violation_max_ / kDegree;
   if (curling_frames_ > 0) bend.curl_kept = curl_sum_.corrected / curl_sum_.tracked;
   bend.curling_frames = curling_frames_;
   return bend;

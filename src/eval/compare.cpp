@@ -16,7 +16,7 @@
 namespace nade {
 namespace {
 
-constexpr double kNear_m = 0.2;
+constexpr double kSearch_m = 0.2;
 constexpr double kPressed_m = 0.002;  // as the metrics have it
 
 ComparedMethod corrector_method(std::string name, Method method) {
@@ -68,7 +68,7 @@ double pressed_path_m(const CaseRecording& recording, const Object& object) {
     for (const RecordedFrame& frame : recording.frames) {
       const auto& hand = frame.hands[side];
       const auto skin = hand ? palm_skin(hand->pose) : std::nullopt;
-      const auto nearest = skin ? object.closest_point(*skin, kNear_m, hint) : std::nullopt;
+      const auto nearest = skin ? object.closest_point(*skin, kSearch_m, hint) : std::nullopt;
       const bool pressed = nearest && nearest->signed_distance < -kPressed_m;
       if (pressed && was_pressed) {
         path_m += along_surface(*skin - before, nearest->normal).norm();

@@ -9,8 +9,6 @@
 namespace nade {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-
 /// Deviations of one kind of error: what varies slowly, and what is new in each frame.
 struct Deviation {
   double slow = 0.0;

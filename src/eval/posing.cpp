@@ -8,7 +8,6 @@
 namespace nade {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kNear_m = 0.1;   // how far a point may lie off the surface
 constexpr double kPalm_m = 0.03;  // half a palm's breadth
 // A curl adds 45 degrees; the last joint follows the middle one at two thirds, as in free motion.

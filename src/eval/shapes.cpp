@@ -8,8 +8,6 @@
 namespace nade {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// A point of a profile that is turned about the Y axis.
 struct ProfilePoint {
   double radius_m = 0.0;
@@ -27,7 +25,7 @@ TriangleSoup revolved(const std::vector<ProfilePoint>& profile, std::uint32_t se
   on_axis(profile.front());
   for (std::uint32_t ring = 1; ring <= rings; ++ring) {
     for (std::uint32_t sector = 0; sector < sectors; ++sector) {
-      const double turn = 2.0 * kPi * sector / sectors;
+      const double turn = 2.0 * std::numbers::pi * sector / sectors;
       const ProfilePoint& point = profile[ring];
       soup.vertices.emplace_back(
           Vec3(point.radius_m * std::sin(turn), point.height_m, point.radius_m * std::cos(turn))
@@ -74,7 +72,7 @@ TriangleSoup bowl_soup(const BowlSize& size) {
   std::vector<ProfilePoint> profile;
   const double outer_m = size.inner_radius_m + size.thickness_m;
   const auto add = [&](double radius_m, std::uint32_t ring) {
-    const double polar = 0.5 * kPi * ring / size.rings;
+    const double polar = 0.5 * std::numbers::pi * ring / size.rings;
     profile.push_back(
         {radius_m * std::sin(polar), size.inner_radius_m - radius_m * std::cos(polar)});
   };
@@ -94,7 +92,7 @@ MeshFile board_shape() {
 
 MeshFile box_shape() {
   const Vec3 half(0.2, 0.1, 0.15);
-  const Quat aside(Eigen::AngleAxisd(-0.5 * kPi, Vec3::UnitY()));
+  const Quat aside(Eigen::AngleAxisd(-0.5 * std::numbers::pi, Vec3::UnitY()));
   return {moved_by(box_soup(half), Vec3(0.0, -half.y(), half.z())),
           {{"across", {}}, {"along", {Vec3::Zero(), aside}}}};
 }

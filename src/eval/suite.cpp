@@ -7,7 +7,6 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <set>
 #include <span>
 #include <utility>
@@ -18,7 +17,6 @@
 namespace nade {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kSpeed_m_per_s = 0.1;
 constexpr double kDepth_m = 0.02;
 constexpr double kQuickDuration_s = 2.0;

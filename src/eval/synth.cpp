@@ -18,7 +18,6 @@
 namespace nade {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kHover_m = 0.05;
 constexpr double kApproachMax_s = 1.0;
 constexpr double kApproachShare = 0.15;  // of a recording too short for that
@@ -60,7 +59,7 @@ double soft_ended(double x, double ramp) {
 
 /// From 0 up to 1 and back, `cycles` times while x goes from 0 to 1.
 double wave(double x, double cycles) {
-  return 0.5 * (1.0 - std::cos(2.0 * kPi * cycles * std::clamp(x, 0.0, 1.0)));
+  return 0.5 * (1.0 - std::cos(2.0 * std::numbers::pi * cycles * std::clamp(x, 0.0, 1.0)));
 }
 
 Error refuse(std::string_view option, double value, std::string_view expected) {
@@ -77,8 +76,8 @@ Status check(const SynthOptions& options) {
   if (outside(options.depth_m, 0.0, 0.1)) {
     return refuse("--depth", options.depth_m, "0 to 0.1 metres");
   }
-  if (outside(options.tilt_rad, -80.0 * kPi / 180.0, 80.0 * kPi / 180.0)) {
-    return refuse("--tilt", options.tilt_rad * 180.0 / kPi, "-80 to 80 degrees");
+  if (outside(options.tilt_rad, -80.0 * kDegree, 80.0 * kDegree)) {
+    return refuse("--tilt", options.tilt_rad / kDegree, "-80 to 80 degrees");
   }
   if (outside(options.duration_s, 0.5, 86'400.0)) {
     return refuse("--duration", options.duration_s, "0.5 to 86400 seconds");
@@ -106,8 +105,8 @@ Pattern pattern_of(Stroke stroke, const PlaceExtent& extent, Handedness side, do
     case Stroke::circle: {
       const double radius = std::min({kCircleRadius_m, 0.8 * extent.forward, 0.8 * extent.aside});
       return [=](double x) {
-        return PatternPoint{aside * radius * std::cos(2.0 * kPi * x),
-                            size * radius * std::sin(2.0 * kPi * x)};
+        return PatternPoint{aside * radius * std::cos(2.0 * std::numbers::pi * x),
+                            size * radius * std::sin(2.0 * std::numbers::pi * x)};
       };
     }
     case Stroke::zigzag: {
@@ -116,8 +115,8 @@ Pattern pattern_of(Stroke stroke, const PlaceExtent& extent, Handedness side, do
       const double waves =
           std::clamp(std::floor(distance / (4.0 * width)), kZigzagWavesMin, kZigzagWavesMax);
       return [=](double x) {
-        return PatternPoint{aside * width * std::sin(2.0 * kPi * waves * x),
-                            -half * std::cos(2.0 * kPi * x)};
+        return PatternPoint{aside * width * std::sin(2.0 * std::numbers::pi * waves * x),
+                            -half * std::cos(2.0 * std::numbers::pi * x)};
       };
     }
     case Stroke::press:
@@ -169,7 +168,7 @@ std::string header_json(const ObjectPlacing& placing, const SynthOptions& option
   synth["place"] = place;
   synth["speed"] = options.speed_m_per_s;
   synth["depth"] = options.depth_m;
-  synth["tilt"] = options.tilt_rad * 180.0 / kPi;
+  synth["tilt"] = options.tilt_rad / kDegree;
   synth["hand"] = name_of(options.side);
   synth["duration"] = options.duration_s;
   synth["rate"] = options.rate_hz;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "nade/eval/posing.h"
 
@@ -14,13 +13,13 @@ constexpr int kSteps = 256;        // knots from x = 0 to x = 1
 constexpr double kBlur_m = 0.004;  // what is finer than this is not followed by a hand
 constexpr int kBlurKnotsMax = 40;  // of one side of the blur
 constexpr int kMargin = kBlurKnotsMax + 3;
-constexpr double kNear_m = 0.1;  // how far a step may lie off the surface
+constexpr double kStray_m = 0.1;  // how far a step may lie off the surface
 constexpr double kWalkStep_m = 0.004;
 constexpr double kExtentMax_m = 0.12;
 constexpr double kExtentMin_m = 0.015;
 constexpr double kExtentStep_m = 0.005;
-constexpr double kTurnMax_rad = 55.0 * std::numbers::pi / 180.0;
-constexpr double kTurnPerStepMax_rad = 15.0 * std::numbers::pi / 180.0;
+constexpr double kTurnMax_rad = 55.0 * kDegree;
+constexpr double kTurnPerStepMax_rad = 15.0 * kDegree;
 
 double angle_between(const Vec3& a, const Vec3& b) {
   return std::acos(std::clamp(a.dot(b), -1.0, 1.0));
@@ -104,7 +103,7 @@ Vec3 StrokePatch::walk(const PatternPoint& point) const {
   const int steps = static_cast<int>(std::ceil(distance / kWalkStep_m));
   SurfaceHint hint;
   for (int i = 0; i < steps; ++i) {
-    const auto nearest = object_.closest_point(here + distance / steps * way, kNear_m, hint);
+    const auto nearest = object_.closest_point(here + distance / steps * way, kStray_m, hint);
     if (!nearest) return here;
     here = nearest->point;
     const Vec3 tangent = along_surface(way, nearest->normal);
@@ -126,7 +125,7 @@ Vec3 StrokePatch::sunk(const Vec3& point, const Vec3& normal, double depth_m) co
   Vec3 skin = point - depth_m * normal;
   SurfaceHint hint;
   for (int i = 0; i < 3; ++i) {
-    const auto nearest = object_.closest_point(skin, kNear_m + depth_m, hint);
+    const auto nearest = object_.closest_point(skin, kStray_m + depth_m, hint);
     if (!nearest || nearest->normal.dot(normal) < 0.5) break;
     const double missing = nearest->signed_distance + depth_m;
     if (std::abs(missing) > 0.25 * depth_m) break;

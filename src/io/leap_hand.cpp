@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 namespace nade::io {
@@ -77,7 +76,7 @@ Vec3 hinge_of(const std::array<Vec3, 3>& bones, const Vec3& rest) {
 
 Vec3 rolled(const Vec3& right, const Vec3& bone, double roll_deg) {
   const Vec3 across = unit_or(right - right.dot(bone) * bone, right);
-  return Eigen::AngleAxisd(roll_deg * std::numbers::pi / 180.0, bone) * across;
+  return Eigen::AngleAxisd(roll_deg * kDegree, bone) * across;
 }
 
 /// What is the same for all joints of one hand, which is a right one.

@@ -1,14 +1,13 @@
 #pragma once
 
 #include <array>
-#include <numbers>
 
 #include "nade/hand.h"
 #include "nade/skeleton.h"
 
 namespace nade::test {
 
-inline constexpr double rad(double degrees) { return degrees * std::numbers::pi / 180.0; }
+inline constexpr double rad(double degrees) { return degrees * kDegree; }
 
 /// A relaxed hand's flexion, as a headset sees it: 0 to 18 degrees in the fingers.
 inline HandAngles relaxed_angles() {
