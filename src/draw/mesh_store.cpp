@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "nade/assert.h"
+#include "vertex_normals.h"
 
 namespace nade::draw {
 namespace {
@@ -11,10 +12,6 @@ namespace {
 using Vec3f = Eigen::Vector3f;
 
 constexpr float kMostAnisotropy = 8.0F;
-
-float angle_between(const Vec3f& a, const Vec3f& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 /// The mean of the faces about each vertex, by their angles there.
 void compute_normals(std::span<const Vec3f> positions,

@@ -1,9 +1,8 @@
-#include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include "object_look.h"
+#include "vertex_normals.h"
 
 // Based on: Thürmer, Wüthrich. Computing Vertex Normals from Polygonal Facets. 1998.
 
@@ -17,19 +16,9 @@ struct Corner {
   Vec3f weighted;  ///< the face's unit normal times the angle here
 };
 
-struct Before {
-  bool operator()(const Vec3f& a, const Vec3f& b) const {
-    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
-  }
-};
-
 Vec3f unit_or_zero(const Vec3f& v) {
   const float length = v.norm();
   return length > 0.0F ? Vec3f(v / length) : Vec3f(Vec3f::Zero());
-}
-
-float angle_between(const Vec3f& a, const Vec3f& b) {
-  return std::acos(std::clamp(unit_or_zero(a).dot(unit_or_zero(b)), -1.0F, 1.0F));
 }
 
 /// One corner of a triangle becomes a vertex of its own.
@@ -53,10 +42,10 @@ DrawnMesh torn_apart(const DrawnMesh& mesh) {
 }  // namespace
 
 void compute_creased_normals(DrawnMesh& mesh) {
-  const float least_cosine = std::cos(40.0F * std::numbers::pi_v<float> / 180.0F);
+  const float least_cosine = std::cos(40.0F * static_cast<float>(kDegree));
   mesh = torn_apart(mesh);
   std::vector<Vec3f> face(mesh.triangles.size());
-  std::map<Vec3f, std::vector<Corner>, Before> corners;
+  std::map<Vec3f, std::vector<Corner>, ByPlace> corners;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Vec3f* const p = &mesh.positions[3 * t];
     face[t] = unit_or_zero((p[1] - p[0]).cross(p[2] - p[0]));

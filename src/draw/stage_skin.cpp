@@ -4,23 +4,11 @@
 #include <cmath>
 #include <map>
 
+#include "vertex_normals.h"
+
 namespace nade::draw {
-namespace {
 
 using Vec3f = Eigen::Vector3f;
-
-struct Before {
-  bool operator()(const Vec3f& a, const Vec3f& b) const {
-    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
-  }
-};
-
-float angle_between(const Vec3f& a, const Vec3f& b) {
-  const float lengths = a.norm() * b.norm();
-  return lengths > 0.0F ? std::acos(std::clamp(a.dot(b) / lengths, -1.0F, 1.0F)) : 0.0F;
-}
-
-}  // namespace
 
 DrawnMesh plain_hand(const HandMesh& mesh) {
   SkinPoser poser(mesh);
@@ -41,7 +29,7 @@ SkinPoser::SkinPoser(const HandMesh& mesh)
       normals_(mesh.vertices.size(), Vec3f::UnitY()),
       colors_(mesh.vertices.size(), Color::Ones()),
       hints_(mesh.vertices.size()) {
-  std::map<Vec3f, std::uint32_t, Before> first;
+  std::map<Vec3f, std::uint32_t, ByPlace> first;
   for (std::uint32_t i = 0; i < twin_.size(); ++i) {
     twin_[i] = first.try_emplace(mesh.vertices[i], i).first->second;
   }
