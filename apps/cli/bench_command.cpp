@@ -63,8 +63,7 @@ Result<std::vector<ComparedMethod>> chosen_methods(std::string_view names) {
       for (const ComparedMethod& method : known) {
         expected += (expected.empty() ? "" : ", ") + method.name;
       }
-      return Error{ErrorCode::out_of_range,
-                   fmt::format("--method '{}': expected some of {}", name, expected)};
+      return misuse(fmt::format("--method '{}': expected some of {}", name, expected));
     }
     const bool again = std::any_of(chosen.begin(), chosen.end(), [&](const ComparedMethod& method) {
       return method.name == name;
@@ -114,8 +113,7 @@ Result<BenchPlan> plan_of(const BenchArguments& arguments) {
     return suite_case.name().find(arguments.filter) == std::string::npos;
   });
   if (plan.cases.empty()) {
-    return Error{ErrorCode::out_of_range,
-                 fmt::format("--filter '{}': no case has that in its name", arguments.filter)};
+    return misuse(fmt::format("--filter '{}': no case has that in its name", arguments.filter));
   }
   return plan;
 }
@@ -140,8 +138,7 @@ Status run_command(const BenchArguments& arguments) {
     return path == kStandardStream ? 1 : 0;
   };
   if (to_stdout(arguments.json) + to_stdout(arguments.csv) + to_stdout(arguments.markdown) > 1) {
-    return Error{ErrorCode::out_of_range,
-                 "only one of --json, --csv and --markdown can be standard output"};
+    return misuse("only one of --json, --csv and --markdown can be standard output");
   }
   const Result<BenchPlan> plan = plan_of(arguments);
   if (!plan) return plan.error();

@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <string>
+#include <utility>
 
 #include "nade/status.h"
 
@@ -9,6 +11,11 @@ namespace nade::cli {
 
 /// What the command line asked for: runs it and says how it went.
 using Action = std::function<Status()>;
+
+/// Options that do not go together, or that ask for what there is not.
+[[nodiscard]] inline Error misuse(std::string sentence) {
+  return {ErrorCode::out_of_range, std::move(sentence)};
+}
 
 /// Each adds one subcommand; when it is parsed, `action` becomes what it does.
 void add_bench(CLI::App& app, Action& action);

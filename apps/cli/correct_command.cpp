@@ -149,10 +149,10 @@ Status run_on(const CorrectArguments& arguments, const std::string& path) {
 
 Status run_correct(const CorrectArguments& arguments) {
   if (!arguments.object.object) {
-    return Error{ErrorCode::out_of_range, "--object is needed: plane, sphere, dog or a mesh file"};
+    return misuse("--object is needed: plane, sphere, dog or a mesh file");
   }
   if (arguments.output == "-" && arguments.json == "-") {
-    return Error{ErrorCode::out_of_range, "--output and --json cannot both be standard output"};
+    return misuse("--output and --json cannot both be standard output");
   }
   if (arguments.input != "-" || !arguments.press_m) return run_on(arguments, arguments.input);
   const Result<SpooledInput> spooled = SpooledInput::read();

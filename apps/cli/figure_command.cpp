@@ -29,8 +29,6 @@ struct FigureArguments {
   std::optional<double> time_s;
 };
 
-Error misuse(std::string message) { return {ErrorCode::out_of_range, std::move(message)}; }
-
 /// Where the frames of a row come from, one after another.
 using Frames = std::function<Result<std::optional<RecordedFrame>>()>;
 

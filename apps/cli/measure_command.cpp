@@ -63,12 +63,12 @@ Result<MeasureReport> measure(const MeasureArguments& arguments, const std::stri
 
 Status run_measure(const MeasureArguments& arguments) {
   if (arguments.json == kStandardStream && arguments.csv == kStandardStream) {
-    return Error{ErrorCode::out_of_range, "--json and --csv cannot both be standard output"};
+    return misuse("--json and --csv cannot both be standard output");
   }
   std::optional<SpooledInput> spooled;
   if (arguments.tracked == kStandardStream) {
     if (arguments.corrected == kStandardStream) {
-      return Error{ErrorCode::out_of_range, "TRACKED and CORRECTED cannot both be standard input"};
+      return misuse("TRACKED and CORRECTED cannot both be standard input");
     }
     Result<SpooledInput> input = SpooledInput::read();
     if (!input) return input.error();

@@ -4,6 +4,7 @@
 
 #include <string_view>
 
+#include "commands.h"
 #include "console.h"
 #include "number_list.h"
 
@@ -63,8 +64,7 @@ Result<PlacedObject> load_placed(const ObjectOptions& options,
                                  const std::optional<ObjectPlacing>& recorded) {
   const bool same = recorded && (!options.object || *options.object == recorded->object);
   if (!options.object && !recorded) {
-    return Error{ErrorCode::out_of_range,
-                 "--object is required: plane, sphere, sphere:RADIUS, dog or a mesh file"};
+    return misuse("--object is required: plane, sphere, sphere:RADIUS, dog or a mesh file");
   }
   Result<LoadedObject> loaded = load_object(options.object ? *options.object : recorded->object);
   if (!loaded) return loaded.error();

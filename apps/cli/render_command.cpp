@@ -33,8 +33,6 @@ struct RenderArguments {
 
 enum class OutputKind : std::uint8_t { picture, sequence, film };
 
-Error misuse(std::string message) { return {ErrorCode::out_of_range, std::move(message)}; }
-
 /// A name with the place for a number in it: "walk-%05d.png".
 struct NumberedName {
   std::string before;

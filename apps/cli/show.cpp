@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "commands.h"
 #include "console.h"
 #include "press_option.h"
 
@@ -49,8 +50,7 @@ Result<Headers> read_headers(const ShowArguments& arguments) {
 
 Status check(const ShowArguments& arguments, const Headers& headers) {
   if (arguments.corrected && arguments.press_m) {
-    return Error{ErrorCode::out_of_range,
-                 "--press cannot be used with CORRECTED, whose object stood where it stood"};
+    return misuse("--press cannot be used with CORRECTED, whose object stood where it stood");
   }
   if (arguments.corrected && headers.is_corrected) {
     return Error{ErrorCode::bad_value,

@@ -59,8 +59,7 @@ Result<viewer::ViewerSetup> setup_of(const ViewArguments& arguments) {
 Status run_view(const ViewArguments& arguments) {
   const WindowOptions& window = arguments.window;
   if (window.screenshot && !window.headless && !window.frames) {
-    return Error{ErrorCode::out_of_range,
-                 "--screenshot of a window is of its last frame: expected --frames N with it"};
+    return misuse("--screenshot of a window is of its last frame: expected --frames N with it");
   }
   const Result<viewer::Run> run = run_of(window);
   if (!run) return run.error();

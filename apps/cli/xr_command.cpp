@@ -25,8 +25,7 @@ struct XrArguments {
 
 Status run_xr(const XrArguments& arguments) {
   if (arguments.run.screenshot && !arguments.run.frames) {
-    return Error{ErrorCode::out_of_range,
-                 "--screenshot is of the last frame: expected --frames N with it"};
+    return misuse("--screenshot is of the last frame: expected --frames N with it");
   }
   Result<draw::HandMeshes> hands = load_hands(arguments.hands);
   if (!hands) return hands.error();
