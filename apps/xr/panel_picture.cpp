@@ -97,8 +97,8 @@ class Layout {
 
   void text(std::string_view text, float height_px) {
     const float height = scale_ * height_px;
-    constexpr float kWidth = kPanelWidth_px - 2 * kMargin;
-    for (const std::string& line : broken(text, height, kWidth)) {
+    constexpr float kAcross = kPanelWidth_px - 2 * kMargin;
+    for (const std::string& line : broken(text, height, kAcross)) {
       if (image_ != nullptr) {
         draw::draw_text(*image_, kMargin, static_cast<float>(y_), line, height, kInk);
       }

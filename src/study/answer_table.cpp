@@ -73,9 +73,10 @@ bool is_mark(std::string text) {
 }
 
 /// One row, read field by field; the first thing that is wrong is kept.
-class RowReader {
+class GivenAnswerReader {
  public:
-  RowReader(const CsvTable& table, const CsvRecord& record) : table_(table), record_(record) {}
+  GivenAnswerReader(const CsvTable& table, const CsvRecord& record)
+      : table_(table), record_(record) {}
 
   std::string name(std::size_t column) {
     const std::string& text = record_.fields[column];
@@ -115,7 +116,7 @@ class RowReader {
 
 Result<GivenAnswer> read_row(const CsvTable& table, const CsvRecord& record,
                              const Columns& columns) {
-  RowReader row(table, record);
+  GivenAnswerReader row(table, record);
   GivenAnswer answer;
   answer.participant = row.name(columns.participant);
   answer.object = row.name(columns.object);

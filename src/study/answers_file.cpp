@@ -38,9 +38,9 @@ std::optional<Number> number_from(std::string_view text) {
 }
 
 /// One row against the plan: what it says, or what is wrong with it.
-class RowReader {
+class KeptAnswerReader {
  public:
-  RowReader(const ParticipantPlan& head, std::string_view line)
+  KeptAnswerReader(const ParticipantPlan& head, std::string_view line)
       : head_(head), fields_(split(line)) {}
 
   std::optional<KeptAnswer> read() {
@@ -149,7 +149,7 @@ void read_answers(Participant& participant) {
     const auto complain = [&](std::string_view what) {
       participant.problems.push_back(fmt::format("{}: line {}: {}", path, lines[i].number, what));
     };
-    RowReader reader(participant.head, lines[i].text);
+    KeptAnswerReader reader(participant.head, lines[i].text);
     const std::optional<KeptAnswer> row = reader.read();
     if (!row) {
       complain(reader.problem());

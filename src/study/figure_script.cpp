@@ -80,7 +80,7 @@ Layout layout_of(const Sheet& sheet) {
 }
 
 /// A string of gnuplot's, in double quotes.
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string result = "\"";
   for (const char character : text) {
     if (character == '\n') {
@@ -98,8 +98,9 @@ std::string tics_of(const Sheet& sheet) {
   std::string tics;
   for (std::size_t i = 0; i < sheet.data.questions.size(); ++i) {
     const auto lines = question_lines(sheet, sheet.data.questions[i]);
-    tics += fmt::format("{}{} {:.4f}", i > 0 ? ", " : "",
-                        quoted(fmt::format("{}", fmt::join(lines, "\n"))), places.group_centre(i));
+    tics +=
+        fmt::format("{}{} {:.4f}", i > 0 ? ", " : "",
+                    in_quotes(fmt::format("{}", fmt::join(lines, "\n"))), places.group_centre(i));
   }
   return tics;
 }
@@ -167,7 +168,7 @@ std::string head_of(const std::string& name, const Layout& layout) {
              "if (!exists(\"IN\")) IN = \"\"\n"
              "if (!exists(\"OUT\")) OUT = \"\"\n"
              "NAME = {1}\nDATA = IN.NAME.\".dat\"\nWIDTH = {2:.0f}\nHEIGHT = {3:.0f}\n",
-             name, quoted(name), layout.width, layout.height) +
+             name, in_quotes(name), layout.width, layout.height) +
          std::string(kTerminals);
 }
 
@@ -182,13 +183,13 @@ std::string axes_of(const Sheet& sheet, const Layout& layout) {
                       places.right(), sheet.data.scale_low - 0.35, places.top());
   text += fmt::format("set ytics {:g},1,{:g}\nset xtics ({}) scale 0\n", sheet.data.scale_low,
                       sheet.data.scale_high, tics_of(sheet));
-  return text + fmt::format("set ylabel {}\n", quoted(scale_label(sheet)));
+  return text + fmt::format("set ylabel {}\n", in_quotes(scale_label(sheet)));
 }
 
 std::string labels_of(const Sheet& sheet, const Layout& layout) {
   std::string text = fmt::format(
       "set label 1 {} at screen 0.5,{:.4f} center font sprintf(\"sans-serif,%g\", 8*LETTERS)\n",
-      quoted(footnote_of(sheet)), 13.0 / layout.height);
+      in_quotes(footnote_of(sheet)), 13.0 / layout.height);
   if (!sheet.data.simulated) return text;
   return text + fmt::format(
                     "set label 2 \"SIMULATED\" at graph 0.5,0.45 center rotate by 24 font "
@@ -235,7 +236,7 @@ std::string key_of(const Sheet& sheet) {
   for (std::size_t method = 0; method < sheet.analysis.methods.size(); ++method) {
     key += fmt::format(
         ", \\\n  keyentry with boxes {} title {}", look_of(method).box,
-        quoted(method_label(sheet.analysis, sheet.analysis.methods[method], sheet.language)));
+        in_quotes(method_label(sheet.analysis, sheet.analysis.methods[method], sheet.language)));
   }
   return key;
 }
@@ -244,7 +245,7 @@ std::string panel_script(const Sheet& sheet, std::size_t panel) {
   std::string text;
   if (panel == 1) text += "unset label 1\nunset label 3\nunset ylabel\nset format y ''\n";
   if (!sheet.panels[panel].title.empty()) {
-    text += fmt::format("set title {} offset 0,-0.5\n", quoted(sheet.panels[panel].title));
+    text += fmt::format("set title {} offset 0,-0.5\n", in_quotes(sheet.panels[panel].title));
   }
   return text + plot_of(sheet, panel) + (panel == 0 ? key_of(sheet) : "") + "\n";
 }

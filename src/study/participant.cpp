@@ -15,15 +15,16 @@ namespace {
 
 using Fate = StudyProgress::Fate;
 
-constexpr std::string_view kFormat = "nade-study-participant";
-constexpr int kVersion = 1;
+constexpr std::string_view kFolderFormat = "nade-study-participant";
+constexpr int kFolderVersion = 1;
 
 ParticipantPlan head_from(const JsonReader& json) {
   ParticipantPlan head;
   json.allow({"format", "version", "participant", "tool", "simulated", "motion", "speed", "order",
               "plan"});
-  if (json.at("format").json() != kFormat) json.at("format").refuse("\"nade-study-participant\"");
-  if (json.at("version").json() != kVersion) json.at("version").refuse("1");
+  if (json.at("format").json() != kFolderFormat)
+    json.at("format").refuse("\"nade-study-participant\"");
+  if (json.at("version").json() != kFolderVersion) json.at("version").refuse("1");
   head.participant = json.at("participant").identifier();
   head.tool = json.at("tool").text();
   if (json.has("simulated")) {
@@ -139,8 +140,8 @@ bool comes_before(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::string participant_text(const ParticipantPlan& head) {
-  Json json{{"format", kFormat},
-            {"version", kVersion},
+  Json json{{"format", kFolderFormat},
+            {"version", kFolderVersion},
             {"participant", head.participant},
             {"tool", head.tool}};
   if (head.origin == Origin::simulated) json["simulated"] = true;

@@ -12,8 +12,8 @@
 namespace nade::study {
 namespace {
 
-constexpr std::string_view kFormat = "nade-study-plan";
-constexpr int kVersion = 1;
+constexpr std::string_view kPlanFormat = "nade-study-plan";
+constexpr int kPlanVersion = 1;
 constexpr double kLongestTrial_s = 3600.0;
 constexpr std::size_t kConditionsMax = 99;
 
@@ -132,8 +132,8 @@ Plan plan_from(const JsonReader& json) {
   json.allow({"format", "version", "title", "seed", "language", "order", "objects", "methods",
               "trial_s", "countdown_s", "practice", "rest", "questions", "scale", "instructions",
               "thanks"});
-  if (json.at("format").json() != kFormat) json.at("format").refuse("\"nade-study-plan\"");
-  if (json.at("version").json() != kVersion) json.at("version").refuse("1");
+  if (json.at("format").json() != kPlanFormat) json.at("format").refuse("\"nade-study-plan\"");
+  if (json.at("version").json() != kPlanVersion) json.at("version").refuse("1");
   plan.title = json.at("title").text();
   plan.seed = json.at("seed").whole(0, std::numeric_limits<std::uint64_t>::max());
   read_choices(json, plan);
@@ -152,7 +152,10 @@ Plan plan_from(const JsonReader& json) {
 }
 
 Json json_of(const Plan& plan) {
-  Json json{{"format", kFormat}, {"version", kVersion}, {"title", plan.title}, {"seed", plan.seed}};
+  Json json{{"format", kPlanFormat},
+            {"version", kPlanVersion},
+            {"title", plan.title},
+            {"seed", plan.seed}};
   json["language"] = plan.language == Language::japanese ? "ja" : "en";
   json["order"] = plan.order == OrderKind::latin ? "latin" : "random";
   json["objects"] = Json::array();
