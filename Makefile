@@ -28,7 +28,7 @@ asan: setup ## The tests under the address and undefined-behaviour sanitizers
 	@ctest --preset asan -j "$$(nproc)"
 
 test-headset: setup ## All of it in a Debian 13 system, with g++ 14, and `nade xr` on the OpenXR runtime there (root)
-	@scripts/test_xr
+	@scripts/test_xr --all
 
 tidy: setup ## clang-tidy over our sources
 	@scripts/build release

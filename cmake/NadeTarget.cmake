@@ -5,6 +5,10 @@ function(nade_target target)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
   target_compile_options(${target} PRIVATE
     $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall;-Wextra;-Wconversion;-Wshadow>)
+  if(CMAKE_UNITY_BUILD)
+    # GCC takes sources that are compiled together for headers.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
   if(NADE_SANITIZE)
     target_compile_options(${target} PRIVATE
       -fsanitize=${NADE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
