@@ -244,7 +244,8 @@ SettleProblem Settling::problem_at(const PosedHand& posed, int round) const {
 
   const HandFreedoms changed = step_between(last_, correction_, search_.frame);
   if (!fresh_) {
-    problem.springs.add((in_air ? damping_in_air() : damping()) / seconds_, -changed);
+    problem.springs.add((in_air ? damping_in_air() : damping(away, memory_.height_m)) / seconds_,
+                        -changed);
     const double inertia = in_air ? kInertiaInAir : kInertia;
     add_inertia(coasted_, inertia / (seconds_ * seconds_), posed, search_.frame, problem.springs);
   }

@@ -25,6 +25,10 @@ constexpr double kStifferInAir = 2.0;
 constexpr double kViscosity_s = 0.051082;
 /// And shifts along the surface with this: there the hand moves as the person's does.
 constexpr double kSlideTime_s = 45.0;
+/// Until it is this and so many heights of the press off: then in half of that, farther off far
+/// sooner. Circles on a ball would else lead it round the ball.
+constexpr double kStray_m = 0.02;
+constexpr double kStrayOfHeight = 2.0;
 /// In the air, all of a correction goes with this.
 constexpr double kReleaseTime_s = 0.095791;
 
@@ -52,9 +56,12 @@ HandFreedoms stiffness_in_air(const HandFreedoms& away) noexcept {
   return stiffness;
 }
 
-HandFreedoms damping() noexcept {
+HandFreedoms damping(const HandFreedoms& away, double height_m) noexcept {
+  const double strays = away.head<2>().norm() / (kStray_m + kStrayOfHeight * height_m);
+  const double slide_s =
+      kSlideTime_s * slackened(away.head<3>().norm() / kFarShift_m) / (1.0 + std::pow(strays, 4));
   HandFreedoms time_s = HandFreedoms::Constant(kViscosity_s);
-  time_s.head<3>() << kSlideTime_s, kSlideTime_s, 0.0;  // out of the object at once
+  time_s.head<3>() << slide_s, slide_s, 0.0;  // out of the object at once
   return stiffness_of_pose(HandFreedoms::Zero()).cwiseProduct(time_s);
 }
 

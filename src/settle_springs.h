@@ -13,8 +13,8 @@ namespace nade {
 [[nodiscard]] HandFreedoms stiffness_in_air(const HandFreedoms& away) noexcept;
 
 /// What it costs to change the correction: the stiffness of those springs, times the seconds in
-/// which each freedom follows them.
-[[nodiscard]] HandFreedoms damping() noexcept;
+/// which each freedom follows them. `height_m` is how far the palm is held above the tracked one.
+[[nodiscard]] HandFreedoms damping(const HandFreedoms& away, double height_m) noexcept;
 [[nodiscard]] HandFreedoms damping_in_air() noexcept;
 
 }  // namespace nade

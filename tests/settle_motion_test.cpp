@@ -76,6 +76,25 @@ TEST(SettleMotion, AHandThatGripsABallAndGoesStraightOnDoesNotTremble) {
   }
 }
 
+/// Where a surface turns, circle after circle leads the drawn hand a little farther aside.
+TEST(SettleMotion, CirclesOnABallDoNotLeadTheHandAway) {
+  constexpr double kRadius_m = 0.05;
+  constexpr double kSpeed_mps = 0.2;
+  const SphereSurface surface(0.1);
+  const Object object(surface, {{{0.0, -0.1, 0.0}, Quat::Identity()}, 1.0});
+  HandCorrector corrector(settling());
+  double farthest_m = 0.0;
+  for (int i = 0; i < 30 * 90; ++i) {
+    const double turn = kSpeed_mps / kRadius_m * i / 90.0;
+    const Vec3 aside = kRadius_m * Vec3(std::cos(turn) - 1.0, 0.0, std::sin(turn));
+    const HandPose tracked = pressed_hand(0.02, 0.0, aside);
+    const HandPose drawn = corrector.update(tracked, object, kFrame_ns * i).pose;
+    const Vec3 off = drawn[Joint::palm].position - tracked[Joint::palm].position;
+    farthest_m = std::max(farthest_m, off.norm());
+  }
+  EXPECT_LT(farthest_m, 0.05);
+}
+
 /// A hand that stroked a ball's side and goes straight up has a correction left when it is free.
 TEST(SettleMotion, AHandThatLeavesABallIsNotThrownBack) {
   HandCorrector corrector(settling());
