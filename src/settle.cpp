@@ -164,6 +164,7 @@ void Settling::find_motion() {
   const SettledFrame& last = memory_.last;
   if (!last.tracked) return;
   motion_m_ = largest_motion(*last.tracked, model_.tracked);
+  memory_.way_m += motion_m_;
   const double follow = memory_.fresh ? 1.0 : followed(seconds_, kVelocityTime_s);
   follow_velocity(*last.tracked, model_.tracked, seconds_, follow, memory_.velocity);
 }

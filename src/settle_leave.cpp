@@ -20,16 +20,33 @@ constexpr double kOnItsWay_s = 0.1;
 constexpr double kPatience_s = 1.0;
 constexpr double kStuck_m = 0.13;
 
-/// Whether all of a hand is out of the object. It is asked again and again: where the last look
-/// ended comes first.
-bool is_clear(const TouchSearch& search, const PosedFlesh& flesh, SettleMemory& memory) {
-  const std::vector<FleshPad>& pads = search.flesh.pads;
-  for (std::size_t i = 0; i < pads.size(); ++i) {
-    const std::size_t pad = (memory.last_inside + i) % pads.size();
-    SurfaceHint hint = memory.pads[pad].hint;
-    const Vec3 middle = flesh.position(pads[pad].middle);
-    const auto nearest = search.object.closest_point(middle, kDeepest_m, hint);
-    if (!nearest || nearest->signed_distance > kClear_m) continue;
+/// How far a pad's middle is out of the object.
+double out_by(const TouchSearch& search, const PosedFlesh& flesh, std::size_t pad,
+              const SettleMemory& memory) {
+  SurfaceHint hint = memory.pads[pad].hint;
+  const Vec3 middle = flesh.position(search.flesh.pads[pad].middle);
+  const auto nearest = search.object.closest_point(middle, kDeepest_m, hint);
+  return nearest ? nearest->signed_distance : kDeepest_m;
+}
+
+bool is_drawn_clear(const TouchSearch& search, const SettleMemory& memory) {
+  const PosedFlesh drawn = pose_flesh(memory.last.drawn, search.scale);
+  for (std::size_t pad = 0; pad < memory.pads.size(); ++pad) {
+    if (out_by(search, drawn, pad, memory) <= kClear_m) return false;
+  }
+  return true;
+}
+
+/// It is asked again and again: where the last look ended comes first, and what was far out is
+/// looked at when it may have come back.
+bool is_tracked_clear(const TouchSearch& search, SettleMemory& memory) {
+  const std::size_t pads = memory.pads.size();
+  for (std::size_t i = 0; i < pads; ++i) {
+    const std::size_t pad = (memory.last_inside + i) % pads;
+    if (memory.way_m < memory.pads[pad].out_until_m) continue;
+    const double to_spare_m = out_by(search, search.tracked, pad, memory) - kClear_m;
+    memory.pads[pad].out_until_m = memory.way_m + to_spare_m;
+    if (to_spare_m > 0.0) continue;
     memory.last_inside = pad;
     return false;
   }
@@ -41,13 +58,12 @@ bool is_clear(const TouchSearch& search, const PosedFlesh& flesh, SettleMemory& 
 void follow_leaving(const TouchSearch& search, SettleMemory& memory) noexcept {
   const double away_m = largest_motion(memory.last.drawn, *memory.last.tracked);
   if (memory.let_go) {
-    const bool back =
-        away_m < kFar_m && is_clear(search, pose_flesh(memory.last.drawn, search.scale), memory);
+    const bool back = away_m < kFar_m && is_drawn_clear(search, memory);
     memory.let_go = !back && !is_none(memory.last.correction);
     return;
   }
   const bool held_up = !memory.push.isZero() && (memory.clear_s || away_m > kFar_m);
-  if (!held_up || !is_clear(search, search.tracked, memory)) {
+  if (!held_up || !is_tracked_clear(search, memory)) {
     memory.clear_s.reset();
     return;
   }

@@ -19,7 +19,7 @@ SettleMemory settle_memory(const HandFlesh& flesh) {
 void forget_planes(SettleMemory& memory) noexcept {
   for (PadMemory& pad : memory.pads) {
     pad.plane.reset();
-    pad.clearance_m = pad.free_m = 0.0;
+    pad.clearance_m = pad.free_m = pad.out_until_m = 0.0;
   }
 }
 
@@ -33,7 +33,7 @@ void forget_frame(SettleMemory& memory) noexcept {
   memory.geometric.setZero();
   memory.velocity.fill(Vec3::Zero());
   memory.joints.fill(Vec3::Zero());
-  memory.travel_m = memory.height_m = memory.nearest_m = memory.deepest_m = 0.0;
+  memory.travel_m = memory.way_m = memory.height_m = memory.nearest_m = memory.deepest_m = 0.0;
   memory.under_palm = memory.under_hand = memory.under_nearest = {};
   memory.pads.assign(memory.pads.size(), {});
   break_motion(memory.unrest);

@@ -45,6 +45,7 @@ struct PadMemory {
   double same_m = 0.0;            ///< the plane serves within this of there
   double clearance_m = 0.0;       ///< there; more where its skin faces away
   double free_m = 0.0;            ///< what was left of that when last seen, plus `travel_m` then
+  double out_until_m = 0.0;  ///< the tracked hand's pad is out of the object up to this `way_m`
 };
 
 /// What is drawn to the surface: each part, and the skin that is nearest to it, whichever it is.
@@ -156,6 +157,7 @@ struct SettleMemory {
   JointVectors drift{};     ///< velocity of the drawn joints over the tracked, m/s
   JointVectors joints{};    ///< of the hand as looked at last
   double travel_m = 0.0;    ///< the sum of what its farthest joint went from look to look
+  double way_m = 0.0;       ///< and of what the tracked hand's went from frame to frame
 };
 
 /// A memory with room for a hand's pads; settle_hand allocates nothing then.
