@@ -25,8 +25,8 @@ constexpr double kStifferInAir = 2.0;
 constexpr double kViscosity_s = 0.051082;
 /// And shifts along the surface with this: there the hand moves as the person's does.
 constexpr double kSlideTime_s = 45.0;
-/// Until it is this and so many heights of the press off: then in half of that, farther off far
-/// sooner. Circles on a ball would else lead it round the ball.
+/// A shift of this and so many heights of the press has strayed: it comes back in half that time,
+/// a longer one far sooner. Circles on a ball would else lead the hand round it.
 constexpr double kStray_m = 0.02;
 constexpr double kStrayOfHeight = 2.0;
 /// In the air, all of a correction goes with this.
