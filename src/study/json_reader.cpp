@@ -48,6 +48,11 @@ void JsonReader::refuse(const std::string& expected) const {
                               place_.empty() ? "" : ": ", expected, shown(*value_))};
 }
 
+void JsonReader::be(std::string_view format, int version) const {
+  if (at("format").json() != format) at("format").refuse(fmt::format("\"{}\"", format));
+  if (at("version").json() != version) at("version").refuse(std::to_string(version));
+}
+
 void JsonReader::allow(std::initializer_list<std::string_view> keys) const {
   if (!value_->is_object()) return refuse("an object");
   for (const auto& [key, value] : value_->items()) {

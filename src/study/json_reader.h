@@ -26,6 +26,8 @@ class JsonReader {
 
   /// Refuses every key but these.
   void allow(std::initializer_list<std::string_view> keys) const;
+  /// Refuses a file of another format or version than this.
+  void be(std::string_view format, int version) const;
   /// A member, which has to be there.
   [[nodiscard]] JsonReader at(const char* key) const;
   /// An element of an array.

@@ -22,9 +22,7 @@ ParticipantPlan head_from(const JsonReader& json) {
   ParticipantPlan head;
   json.allow({"format", "version", "participant", "tool", "simulated", "motion", "speed", "order",
               "plan"});
-  if (json.at("format").json() != kFolderFormat)
-    json.at("format").refuse("\"nade-study-participant\"");
-  if (json.at("version").json() != kFolderVersion) json.at("version").refuse("1");
+  json.be(kFolderFormat, kFolderVersion);
   head.participant = json.at("participant").identifier();
   head.tool = json.at("tool").text();
   if (json.has("simulated")) {

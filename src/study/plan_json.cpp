@@ -132,8 +132,7 @@ Plan plan_from(const JsonReader& json) {
   json.allow({"format", "version", "title", "seed", "language", "order", "objects", "methods",
               "trial_s", "countdown_s", "practice", "rest", "questions", "scale", "instructions",
               "thanks"});
-  if (json.at("format").json() != kPlanFormat) json.at("format").refuse("\"nade-study-plan\"");
-  if (json.at("version").json() != kPlanVersion) json.at("version").refuse("1");
+  json.be(kPlanFormat, kPlanVersion);
   plan.title = json.at("title").text();
   plan.seed = json.at("seed").whole(0, std::numeric_limits<std::uint64_t>::max());
   read_choices(json, plan);
