@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "ramps.h"
+
 namespace nade {
 namespace {
 
@@ -14,11 +16,6 @@ namespace {
 constexpr double kPastHit_m = 1e-6;
 /// Walls a part may have been pushed through before it counts as gone.
 constexpr int kMostWalls = 8;
-
-double smooth_step(double x) {
-  const double t = std::clamp(x, 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
 
 /// A ray of a part, from the tested point.
 struct PartRay {
@@ -34,8 +31,9 @@ PartContact contact_at(const PartRay& ray, const RayHit& hit, double depth_m,
   contact.ray_direction = ray.direction;
   contact.skin_depth_m = ray.skin_depth_m;
   contact.depth_m = depth_m;
-  contact.turn =
-      options.full_turn_depth_m > 0.0 ? smooth_step(hit.distance / options.full_turn_depth_m) : 1.0;
+  contact.turn = options.full_turn_depth_m > 0.0
+                     ? smoothstep(0.0, options.full_turn_depth_m, hit.distance)
+                     : 1.0;
   return moved_to(contact, ray.direction, hit);
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "nade/assert.h"
+#include "ramps.h"
 
 namespace nade {
 namespace {
@@ -52,9 +53,7 @@ Correction sum(const Correction& base, const Correction& change, double share) {
 
 /// 1 at the start of a release, 0 at its end, smooth at both.
 double share_left(double elapsed_s, double release_s) {
-  if (elapsed_s >= release_s) return 0.0;
-  const double t = std::max(elapsed_s, 0.0) / release_s;
-  return 1.0 - t * t * (3.0 - 2.0 * t);
+  return elapsed_s < release_s ? 1.0 - smoothstep(0.0, release_s, elapsed_s) : 0.0;
 }
 
 /// `to_ns` is not before `from_ns`; times of any origin may be farther apart than their type holds.

@@ -18,11 +18,6 @@ constexpr double kMiddleDepth_m = 0.005;
 /// A skin point sticks out if it is the farthest in one of so many directions.
 constexpr int kDirections = 24;
 
-// What belongs to a part's patch: as in the metric `part_gap`.
-constexpr double kPalmPatch_m = 0.022;
-constexpr double kTipPatch_m = 0.007;
-constexpr double kPatchFacing = 0.5;  // cosine
-
 using Indices = std::vector<std::size_t>;
 using JointWeights = std::array<double, kJointCount>;
 
@@ -60,13 +55,7 @@ std::size_t heaviest(const JointWeights& weights) {
 
 std::optional<Part> patch_of(const HandMesh& mesh, const SkinDepths& depths, std::size_t vertex) {
   for (std::size_t i = 0; i < kPartCount; ++i) {
-    const Part part = part_at(i);
-    const Pose& joint = mesh.bind[joint_of(part)];
-    const Vec3 palmar = joint.rotation * -Vec3::UnitY();
-    const Vec3 middle = joint.position + depths[part] * palmar;
-    const double radius_m = part == Part::palm ? kPalmPatch_m : kTipPatch_m;
-    const bool near = (position_of(mesh, vertex) - middle).norm() < radius_m;
-    if (near && normal_of(mesh, vertex).dot(palmar) > kPatchFacing) return part;
+    if (is_in_patch(mesh, depths, part_at(i), vertex)) return part_at(i);
   }
   return std::nullopt;
 }

@@ -107,6 +107,18 @@ SkinDepths measure_skin_depths(const HandMesh& mesh) {
   return depths;
 }
 
+bool is_in_patch(const HandMesh& mesh, const SkinDepths& depths, Part part, std::size_t vertex) {
+  constexpr double kPalmRadius_m = 0.022;
+  constexpr double kTipRadius_m = 0.007;
+  constexpr double kFacing = 0.5;  // cosine
+  const Pose& joint = mesh.bind[joint_of(part)];
+  const Vec3 palmar = joint.rotation * -Vec3::UnitY();
+  const Vec3 middle = joint.position + depths[part] * palmar;
+  const double radius_m = part == Part::palm ? kPalmRadius_m : kTipRadius_m;
+  return (mesh.vertices[vertex].cast<double>() - middle).norm() < radius_m &&
+         mesh.normals[vertex].cast<double>().dot(palmar) > kFacing;
+}
+
 SkinDepths generic_skin_depths() {
   // The mean of its left and its right hand.
   return {{0.02124, 0.00814, 0.00623, 0.00675, 0.00664, 0.00521}};

@@ -45,6 +45,12 @@ struct SkinDepths {
 /// there is none. Times `hand_scale` for a tracked hand.
 [[nodiscard]] SkinDepths measure_skin_depths(const HandMesh& mesh);
 
+/// Whether a vertex is of a part's contact patch: in the bind pose it faces the part's palmar axis
+/// (-Y) within 60 degrees, and lies within 22 mm (palm) or 7 mm (fingertip) of the point where that
+/// axis leaves the skin, as `depths` has it.
+[[nodiscard]] bool is_in_patch(const HandMesh& mesh, const SkinDepths& depths, Part part,
+                               std::size_t vertex);
+
 /// As `measure_skin_depths` gives for the generic hand, for programs that load no hand mesh.
 [[nodiscard]] SkinDepths generic_skin_depths();
 /// Wrist to middle knuckle of the generic hand, metres.

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "../ramps.h"
+
 namespace nade::draw {
 namespace {
 
@@ -28,11 +30,6 @@ float channel_to_srgb(float c) {
 }
 float channel_from_srgb(float c) {
   return c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F);
-}
-
-float smooth_step(float from, float to, float x) {
-  const float t = std::clamp((x - from) / (to - from), 0.0F, 1.0F);
-  return t * t * (3.0F - 2.0F * t);
 }
 
 /// The outline of the table at an inset from its widest.
@@ -78,7 +75,7 @@ std::shared_ptr<const Image> table_texture() {
                                            static_cast<int>(2.0F * kTableHalfZ * kPixelsAMetre)));
   const auto line = [](float metres, float step, float half_width) {
     const float away = std::abs(metres / step - std::round(metres / step)) * step;
-    return 1.0F - smooth_step(half_width, half_width + 0.0012F, away);
+    return 1.0F - smoothstep(half_width, half_width + 0.0012F, away);
   };
   std::uint8_t* pixel = image->rgba.data();
   for (int row = 0; row < image->height; ++row) {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <optional>
 
+#include "../ramps.h"
 #include "object_look.h"
 #include "stage_skin.h"
 
@@ -17,10 +18,6 @@ constexpr int kGutter = 8;
 /// Where more than this share of the texels is claimed twice, the texture coordinates overlap.
 constexpr double kMostOverlap = 0.02;
 
-float smooth_step(float from, float to, float x) {
-  const float t = std::clamp((x - from) / (to - from), 0.0F, 1.0F);
-  return t * t * (3.0F - 2.0F * t);
-}
 float bump(float x, float width) { return std::exp(-0.5F * x * x / (width * width)); }
 
 void mix(Color& color, const Color& other, float share) { color += share * (other - color); }
@@ -43,7 +40,7 @@ float noise(const Vec3f& point, float size) {
   for (int k = 0; k < 3; ++k) {
     const float floor = std::floor(p[k]);
     cell[static_cast<std::size_t>(k)] = static_cast<int>(floor);
-    t[k] = smooth_step(0.0F, 1.0F, p[k] - floor);
+    t[k] = smoothstep(0.0F, 1.0F, p[k] - floor);
   }
   float sum = 0.0F;
   for (int corner = 0; corner < 8; ++corner) {
@@ -101,7 +98,7 @@ class Painter {
   /// The colour of a spot, linear light.
   [[nodiscard]] Color paint(const Spot& spot) const {
     Color color(0.915F, 0.735F, 0.635F);  // sRGB, the back of the hand
-    const float palmar = smooth_step(0.15F, -0.65F, spot.dorsal);
+    const float palmar = smoothstep(0.15F, -0.65F, spot.dorsal);
     mix(color, {0.945F, 0.735F, 0.665F}, palmar);
     const float patches =
         0.6F * noise(spot.point, 0.016F * scale_) + 0.4F * noise(spot.point, 0.005F * scale_);
@@ -170,7 +167,7 @@ class Painter {
     const Vec3f local = frame(joints.tip).local(spot.point);
     const float from_end = (tip.end + local.z()) / scale_;
     mix(color, {0.925F, 0.635F, 0.58F},
-        own * (0.35F + 0.35F * palmar) * smooth_step(0.020F, 0.006F, from_end));
+        own * (0.35F + 0.35F * palmar) * smoothstep(0.020F, 0.006F, from_end));
     paint_nail(digit, spot, local, color);
   }
 
@@ -187,12 +184,12 @@ class Painter {
     const float w = 2.0F * v - 1.0F;
     const float edge =
         std::pow(std::pow(std::abs(u), 3.5F) + std::pow(std::abs(w), 3.5F), 1 / 3.5F);
-    const float on_back = smooth_step(0.05F, 0.30F, facing);
+    const float on_back = smoothstep(0.05F, 0.30F, facing);
     mix(color, {0.70F, 0.46F, 0.40F}, 0.55F * on_back * bump(edge - 1.02F, 0.07F));
     Color nail(0.955F, 0.785F, 0.735F);
-    mix(nail, {0.95F, 0.86F, 0.81F}, 0.8F * smooth_step(0.80F, 0.90F, v));
-    mix(nail, {0.955F, 0.915F, 0.875F}, smooth_step(0.17F, 0.09F, v));
-    mix(color, nail, on_back * smooth_step(1.02F, 0.92F, edge));
+    mix(nail, {0.95F, 0.86F, 0.81F}, 0.8F * smoothstep(0.80F, 0.90F, v));
+    mix(nail, {0.955F, 0.915F, 0.875F}, smoothstep(0.17F, 0.09F, v));
+    mix(color, nail, on_back * smoothstep(1.02F, 0.92F, edge));
   }
 
   float scale_;

@@ -12,12 +12,12 @@
 #include "nade/eval/wrist_offset.h"
 #include "nade/io/assets.h"
 #include "nade/io/hand_file.h"
+#include "skin_probe.h"
 
 namespace nade {
 namespace {
 
 constexpr double kSearch_m = 0.2;
-constexpr double kPressed_m = 0.002;  // as the metrics have it
 
 ComparedMethod corrector_method(std::string name, Method method) {
   return {std::move(name), [method](const SolverContext& context) -> HandSolver {
@@ -69,7 +69,7 @@ double pressed_path_m(const CaseRecording& recording, const Object& object) {
       const auto& hand = frame.hands[side];
       const auto skin = hand ? palm_skin(hand->pose) : std::nullopt;
       const auto nearest = skin ? object.closest_point(*skin, kSearch_m, hint) : std::nullopt;
-      const bool pressed = nearest && nearest->signed_distance < -kPressed_m;
+      const bool pressed = nearest && nearest->signed_distance < -kPressing_m;
       if (pressed && was_pressed) {
         path_m += along_surface(*skin - before, nearest->normal).norm();
       }

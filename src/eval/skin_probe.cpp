@@ -9,23 +9,15 @@ namespace nade {
 namespace {
 
 constexpr std::size_t kClusterCount = 64;
-constexpr double kPalmPatch_m = 0.022;
-constexpr double kTipPatch_m = 0.007;
-constexpr double kPatchFacing = 0.5;  ///< cosine
 
 /// Bit i of a vertex: it is of part i's patch.
 std::vector<std::uint8_t> find_patches(const HandMesh& mesh) {
   const SkinDepths depths = measure_skin_depths(mesh);
   std::vector<std::uint8_t> patches(mesh.vertices.size());
-  for (std::size_t part = 0; part < kPartCount; ++part) {
-    const Pose& joint = mesh.bind[joint_of(part_at(part))];
-    const Vec3 palmar = joint.rotation * -Vec3::UnitY();
-    const Vec3 middle = joint.position + depths.depth_m[part] * palmar;
-    const double radius = part_at(part) == Part::palm ? kPalmPatch_m : kTipPatch_m;
-    for (std::size_t i = 0; i < patches.size(); ++i) {
-      const bool near = (mesh.vertices[i].cast<double>() - middle).norm() < radius;
-      const bool facing = mesh.normals[i].cast<double>().dot(palmar) > kPatchFacing;
-      if (near && facing) patches[i] |= static_cast<std::uint8_t>(1U << part);
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    for (std::size_t part = 0; part < kPartCount; ++part) {
+      if (!is_in_patch(mesh, depths, part_at(part), i)) continue;
+      patches[i] |= static_cast<std::uint8_t>(1U << part);
     }
   }
   return patches;

@@ -28,9 +28,7 @@ inline constexpr double kTouch_m = 0.002;
 
 /// Measures the posed skin of one hand against an object.
 ///
-/// A part's patch is the skin around the point where the part's palmar axis leaves the flesh, in
-/// the bind pose: facing that way (within 60 degrees) and within 22 mm of it for the palm, 7 mm
-/// for a fingertip.
+/// A part's patch: `is_in_patch`.
 ///
 /// Most vertices need no query: a signed distance changes no faster than the point moves, so one
 /// query at the middle of a cluster of vertices bounds them all. Where a surface's distance is

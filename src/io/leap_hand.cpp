@@ -7,6 +7,8 @@
 #include <cmath>
 #include <optional>
 
+#include "../ramps.h"
+
 namespace nade::io {
 namespace {
 
@@ -35,11 +37,6 @@ constexpr double kPlaneAstray = 0.5;
 constexpr double kPlaneAgrees = 0.8;
 constexpr double kShortestBone_m = 1e-6;
 
-double smooth_step(double from, double to, double x) {
-  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
-
 /// The rotation whose -Z is `forward` and whose +X is nearest to `right`; none where they are
 /// parallel or have no length.
 std::optional<Quat> facing(const Vec3& forward, const Vec3& right) {
@@ -67,8 +64,8 @@ Vec3 hinge_of(const std::array<Vec3, 3>& bones, const Vec3& rest) {
   const double amount = bend.norm();
   if (!(amount > kStraight)) return across;
   const double agreement = bend.dot(across) / amount;
-  const double weight = smooth_step(kStraight, kBent, amount) *
-                        smooth_step(kPlaneAstray, kPlaneAgrees, std::abs(agreement));
+  const double weight = smoothstep(kStraight, kBent, amount) *
+                        smoothstep(kPlaneAstray, kPlaneAgrees, std::abs(agreement));
   // A finger bent backwards turns about the same hinge the other way.
   const Vec3 measured = bend / (agreement < 0.0 ? -amount : amount);
   return unit_or((1.0 - weight) * across + weight * measured, across);
