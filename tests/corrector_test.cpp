@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "nade/io/mesh_file.h"
@@ -26,11 +27,21 @@ constexpr std::int64_t kFrame_ns = 11'111'111;
 const PlaneSurface kPlane;
 const SphereSurface kSphere(0.15);
 
-CorrectorOptions by_paper() {
+CorrectorOptions by(Method method) {
   CorrectorOptions options;
-  options.method = Method::paper;
+  options.method = method;
   return options;
 }
+CorrectorOptions by_paper() { return by(Method::paper); }
+
+/// What holds whatever the method.
+class CorrectorOfAnyMethod : public testing::TestWithParam<Method> {
+ protected:
+  CorrectorOptions options_ = by(GetParam());
+};
+INSTANTIATE_TEST_SUITE_P(Corrector, CorrectorOfAnyMethod,
+                         testing::Values(Method::paper, Method::nade),
+                         [](const auto& tested) { return std::string(name_of(tested.param)); });
 
 Object plane() { return Object(kPlane); }
 /// Its top at y = 0.
@@ -77,8 +88,8 @@ double signed_distance(const Object& object, const Vec3& point) {
       ->signed_distance;
 }
 
-TEST(Corrector, AnUntouchedHandComesBackBitEqual) {
-  HandCorrector corrector(by_paper());
+TEST_P(CorrectorOfAnyMethod, AnUntouchedHandComesBackBitEqual) {
+  HandCorrector corrector(options_);
   for (int i = 0; i < 10; ++i) {
     const HandPose hand = pressed_hand(-0.3, 0.1, {0.01 * i, 0.0, 0.0});
     const CorrectedHand& result = corrector.update(hand, sphere(), i * kFrame_ns);
@@ -88,9 +99,7 @@ TEST(Corrector, AnUntouchedHandComesBackBitEqual) {
 }
 
 TEST(Corrector, MethodNonePassesTheHandThrough) {
-  CorrectorOptions options = by_paper();
-  options.method = Method::none;
-  HandCorrector corrector(options);
+  HandCorrector corrector(by(Method::none));
   const HandPose hand = pressed_hand(0.03);
   EXPECT_TRUE(same_bits(corrector.update(hand, plane(), 0).pose, hand));
 }
@@ -263,8 +272,8 @@ TEST(Corrector, WhatIsLeftAtAnEdgeIsReleasedAndNotDropped) {
   EXPECT_TRUE(same_bits(before, hand));
 }
 
-TEST(Corrector, APoseThatCannotBeUsedComesBackAsItIs) {
-  HandCorrector corrector(by_paper());
+TEST_P(CorrectorOfAnyMethod, APoseThatCannotBeUsedComesBackAsItIs) {
+  HandCorrector corrector(options_);
   (void)corrector.update(pressed_hand(0.02), plane(), 0);
   HandPose broken = pressed_hand(0.02);
   broken[Joint::ring_distal].position.x() = std::numeric_limits<double>::quiet_NaN();
@@ -273,8 +282,8 @@ TEST(Corrector, APoseThatCannotBeUsedComesBackAsItIs) {
             HandStatus::corrected);
 }
 
-TEST(Corrector, TimeThatGoesBackStartsAnew) {
-  HandCorrector corrector(by_paper());
+TEST_P(CorrectorOfAnyMethod, TimeThatGoesBackStartsAnew) {
+  HandCorrector corrector(options_);
   (void)corrector.update(pressed_hand(0.03), plane(), 1'000'000'000);
   const HandPose hand = pressed_hand(-0.2);
   const CorrectedHand& result = corrector.update(hand, plane(), 0);
@@ -282,7 +291,7 @@ TEST(Corrector, TimeThatGoesBackStartsAnew) {
   EXPECT_TRUE(same_bits(result.pose, hand));
 }
 
-TEST(Corrector, DegenerateHandsGiveFinitePoses) {
+TEST_P(CorrectorOfAnyMethod, DegenerateHandsGiveFinitePoses) {
   HandPose point = pressed_hand(0.02);
   for (Pose& joint : point.joints) joint.position = Vec3(0.0, -0.01, 0.0);
   HandPose folded = pressed_hand(0.02);
@@ -295,7 +304,7 @@ TEST(Corrector, DegenerateHandsGiveFinitePoses) {
   }
   HandPose away = test::placed_hand(generic_size_hand(), {0.0, -3.0, 0.0});
   for (const HandPose& hand : {point, folded, stump, away}) {
-    HandCorrector corrector(by_paper());
+    HandCorrector corrector(options_);
     EXPECT_TRUE(all_finite(corrector.update(hand, plane(), 0).pose));
     EXPECT_TRUE(all_finite(corrector.update(hand, sphere(), kFrame_ns).pose));
   }
@@ -342,11 +351,11 @@ std::optional<DogStroke> stroke_the_dog() {
   return stroke;
 }
 
-TEST(Corrector, AFrameOnTheDogAllocatesNothing) {
+TEST_P(CorrectorOfAnyMethod, AFrameOnTheDogAllocatesNothing) {
   const auto stroke = stroke_the_dog();
   if (!stroke) GTEST_SKIP() << NADE_TEST_DOG << ": not here";
   const Object object(*stroke->dog);
-  HandCorrector corrector(by_paper());
+  HandCorrector corrector(options_);
   std::size_t corrected = 0;
   const auto count = test::allocations_of([&] {
     for (std::size_t i = 0; i < stroke->hands.size(); ++i) {
@@ -359,14 +368,14 @@ TEST(Corrector, AFrameOnTheDogAllocatesNothing) {
   EXPECT_GT(corrected, stroke->hands.size() / 2);
 }
 
-TEST(Corrector, EveryRunOnTheDogGivesTheSameBits) {
+TEST_P(CorrectorOfAnyMethod, EveryRunOnTheDogGivesTheSameBits) {
   const auto first = stroke_the_dog();
   const auto second = stroke_the_dog();
   if (!first || !second) GTEST_SKIP() << NADE_TEST_DOG << ": not here";
   const Object object(*first->dog);
   const Object built_again(*second->dog);
-  HandCorrector here(by_paper());
-  HandCorrector there(by_paper());
+  HandCorrector here(options_);
+  HandCorrector there(options_);
   for (std::size_t i = 0; i < first->hands.size(); ++i) {
     const auto time_ns = static_cast<std::int64_t>(i) * kFrame_ns;
     const CorrectedHand& a = here.update(first->hands[i], object, time_ns);
@@ -376,11 +385,11 @@ TEST(Corrector, EveryRunOnTheDogGivesTheSameBits) {
   }
 }
 
-TEST(Corrector, AFrameAllocatesNothing) {
+TEST_P(CorrectorOfAnyMethod, AFrameAllocatesNothing) {
   const auto mesh = MeshSurface::build(test::uv_sphere(0.15F, 60, 61), "sphere");
   ASSERT_TRUE(mesh.ok());
   const Object object(**mesh, sphere().placement());
-  HandCorrector corrector(by_paper());
+  HandCorrector corrector(options_);
   const HandPose hand = pressed_hand(0.02, rad(8.0));
   const auto count = test::allocations_of([&] {
     for (int i = 0; i < 20; ++i) (void)corrector.update(hand, object, i * kFrame_ns);
@@ -388,9 +397,9 @@ TEST(Corrector, AFrameAllocatesNothing) {
   EXPECT_EQ(count, 0u);
 }
 
-TEST(Corrector, EveryRunGivesTheSameBits) {
-  const auto run = [] {
-    HandCorrector corrector(by_paper());
+TEST_P(CorrectorOfAnyMethod, EveryRunGivesTheSameBits) {
+  const auto run = [this] {
+    HandCorrector corrector(options_);
     HandPose last;
     for (int i = 0; i < 60; ++i) {
       const HandPose hand = pressed_hand(0.001 * i - 0.01, rad(10.0), {0.001 * i, 0.0, 0.0});

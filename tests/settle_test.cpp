@@ -30,16 +30,6 @@ using test::rad;
 using test::same_bits;
 using test::settling;
 
-TEST(Settle, AnUntouchedHandComesBackBitEqual) {
-  HandCorrector corrector(settling());
-  for (int i = 0; i < 5; ++i) {
-    const HandPose hand = pressed_hand(-0.2, 0.1, {0.01 * i, 0.0, 0.0});
-    const CorrectedHand& result = corrector.update(hand, ball(), i * kFrame_ns);
-    EXPECT_EQ(result.status, HandStatus::free);
-    EXPECT_TRUE(same_bits(result.pose, hand));
-  }
-}
-
 TEST(Settle, NoSkinIsInTheObjectAndSomeTouchesIt) {
   for (const Object& object : {plane(), ball()}) {
     for (const double tilt : {-0.4, 0.0, 0.4}) {
