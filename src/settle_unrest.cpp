@@ -26,6 +26,8 @@ constexpr double kUnknown_s = 0.05;
 constexpr double kUnknownShare = 0.5;
 /// The pulls on a restless hand are so many times as strong.
 constexpr double kRestlessPull = 36.1;
+/// A calm thumb is drawn more strongly than a finger, a restless one is not.
+constexpr double kRestlessThumbPull = 23.1;
 /// Fingers are relaxed up to this curl.
 constexpr double kRelaxed_rad = 0.9;
 /// Curled by so much more, a finger is drawn no more strongly than a calm hand's.
@@ -112,10 +114,12 @@ PullStrengths pull_strengths(const Unrest& unrest, const FingerCurls& curls,
   const double share = unrest_share(unrest);
   PullStrengths strengths;
   strengths[kNearestSkin] = std::pow(kRestlessPull, share);
+  strengths[index_of(Part::thumb)] = std::pow(kRestlessThumbPull, share);
   double open_fingers = 0.0;
   for (std::size_t d = 0; d < kDigitCount; ++d) {
+    if (digit_at(d) == Digit::thumb) continue;
     const double open = openness(curls[d], at_touch[d]);
-    if (digit_at(d) != Digit::thumb) open_fingers += open;
+    open_fingers += open;
     strengths[index_of(part_of(digit_at(d)))] = std::pow(kRestlessPull, share * open);
   }
   // What draws the palm down would open the fingers that hold it up.

@@ -27,6 +27,8 @@ struct PullGrowth {
   double stiffness;
 };
 constexpr PullGrowth kPartPull{-0.0062146, 0.017795, 51130.0};
+/// A thumb that lies beside the rest of the hand has a long way to come.
+constexpr PullGrowth kThumbPull{kPartPull.start_m, 0.009, 8e4};
 /// The palm takes the whole hand with it.
 constexpr PullGrowth kPalmPull{kPartPull.start_m, kPartPull.full_m, 1.5033e5};
 /// While any skin is pressed in, what is nearest to the surface is kept within reach of a touch: a
@@ -36,7 +38,7 @@ constexpr double kHighestTouch_m = 0.0012;
 /// Where that is farther off than this, as on a hand that slides over an edge, it is drawn besides
 /// by so many times a calm hand's pull.
 constexpr double kAstray_m = 0.0007;
-constexpr double kAstrayPull = 3.0;
+constexpr double kAstrayPull = 3.9;
 
 // Skin lands on a cushion and leaves it by the same way: at rest so thick, and thicker by the way
 // that it goes in so long. It never goes quite flat.
@@ -280,13 +282,18 @@ double away_from_surface(const TouchSearch& search, const PosedHand& posed, cons
   return nearest ? std::max(patch.gap_m, nearest->signed_distance) : patch.gap_m;
 }
 
+const PullGrowth& growth_of(std::size_t pull) {
+  if (pull == kNearestSkin) return kTouchPull;
+  if (part_at(pull) == Part::palm) return kPalmPull;
+  return part_at(pull) == Part::thumb ? kThumbPull : kPartPull;
+}
+
 void add_pulls(const TouchSearch& search, const PosedHand& posed, const PatchTouches& patches,
                SettleMemory& memory) {
   for (std::size_t i = 0; i < kPulls; ++i) {
     const PatchTouch& patch = patches[i];
     const bool nearest = i == kNearestSkin;
-    const bool palm = i == index_of(Part::palm);
-    const PullGrowth& growth = nearest ? kTouchPull : palm ? kPalmPull : kPartPull;
+    const PullGrowth& growth = growth_of(i);
     const bool pulled = search.pulls && patch.point;
     memory.pulls[i] = pulled ? pull_strength(search, patch, growth, i) : 0.0;
     if (memory.pulls[i] == 0.0) continue;
