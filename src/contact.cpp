@@ -3,7 +3,6 @@
 // Based on: Yanagida, Mori, Toyama. Composition of CG Hand Images for Visual Feedback of Contact
 // Sensation in Stroking Motion. 2023. Section 2 (1).
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 

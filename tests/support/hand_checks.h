@@ -23,6 +23,7 @@ inline bool same_bits(const HandPose& a, const HandPose& b) {
   for (std::size_t i = 0; i < kJointCount; ++i) {
     if (a.joints[i].position != b.joints[i].position) return false;
     if (a.joints[i].rotation.coeffs() != b.joints[i].rotation.coeffs()) return false;
+    if (a.radius[i] != b.radius[i]) return false;
   }
   return true;
 }
