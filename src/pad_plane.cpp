@@ -19,8 +19,11 @@ constexpr double kSameOfGap = 0.2;
 /// A pad that is too far is not looked at again until it could have come so much nearer.
 constexpr double kFarSlack_m = 0.02;
 /// And then from so much farther out: the larger a ball is that rests on the surface, the farther
-/// along the surface a pad can go in it.
+/// along the surface a pad can go in it. To know that it is free costs less than where it ends.
 constexpr double kFartherOut_m = 0.02;
+constexpr double kFartherSlack_m = 0.005;
+/// Another pad's ball serves as well that leaves so much more than is needed.
+constexpr double kSharedSlack_m = 0.002;
 /// At an edge the nearest point's normal turns in a moment. A pad's follows over about this way.
 constexpr double kTurningWay_m = 0.0026071;
 /// Cosine between the normals of two sides of a sheet, at most; well below that of a box's faces.
@@ -88,15 +91,31 @@ std::optional<SurfacePoint> look(const ScaledSurface& object, const Vec3& from, 
 }
 
 /// Whether a pad that was too far still is, as seen from farther out.
-bool is_still_far(const ScaledSurface& object, const Vec3& middle, double reach_m, double travel_m,
-                  PadMemory& known) {
+bool is_still_far(PadLooks& looks, const Vec3& middle, double reach_m, PadMemory& known) {
   if (known.outward.isZero()) return false;
-  (void)look(object, middle + kFartherOut_m * known.outward, kFartherOut_m + reach_m + kFarSlack_m,
-             known);
-  return left_of(middle, travel_m, known) > reach_m;
+  if (const FreeBall* const ball = looks.free.around(middle, reach_m + kSharedSlack_m)) {
+    known.seen_from = ball->middle;
+    known.clearance_m = ball->radius_m;
+  } else {
+    (void)look(looks.object, middle + kFartherOut_m * known.outward,
+               kFartherOut_m + reach_m + kFartherSlack_m, known);
+    looks.free.add({known.seen_from, known.clearance_m});
+  }
+  return left_of(middle, looks.travel_m, known) > reach_m;
 }
 
 }  // namespace
+
+const FreeBall* FreeBalls::around(const Vec3& point, double room_m) const noexcept {
+  const FreeBall* roomiest = nullptr;
+  for (const FreeBall& ball : balls_) {
+    const double left_m = ball.radius_m - (point - ball.middle).norm();
+    if (left_m <= room_m) continue;
+    room_m = left_m;
+    roomiest = &ball;
+  }
+  return roomiest;
+}
 
 double left_of(const Vec3& middle, double travel_m, PadMemory& known) noexcept {
   const double left_m = known.clearance_m - away_of(middle, known);
@@ -104,21 +123,21 @@ double left_of(const Vec3& middle, double travel_m, PadMemory& known) noexcept {
   return left_m;
 }
 
-bool find_plane(const ScaledSurface& object, const std::optional<Vec3>& palm, const Vec3& middle,
-                double reach_m, double travel_m, PadMemory& known) noexcept {
+bool find_plane(PadLooks& looks, const Vec3& middle, double reach_m, PadMemory& known) noexcept {
+  const ScaledSurface& object = looks.object;
   const double away_m = away_of(middle, known);
   if (known.clearance_m - away_m > reach_m) return false;
   if (known.plane && away_m <= known.same_m) return true;
   std::optional<PadPlane> before = std::exchange(known.plane, std::nullopt);
-  if (is_still_far(object, middle, reach_m, travel_m, known)) return false;
+  if (is_still_far(looks, middle, reach_m, known)) return false;
   const double search_m = reach_m + kFarSlack_m;
   const std::optional<SurfacePoint> nearest = look(object, middle, search_m, known);
-  const bool far = left_of(middle, travel_m, known) > reach_m;
+  const bool far = left_of(middle, looks.travel_m, known) > reach_m;
   known.outward = Vec3::Zero();
   if (nearest && far) known.outward = (middle - nearest->point).normalized();
   if (!nearest || far) return false;
   known.plane = PadPlane{middle, nearest->point, outward_normal(*nearest, middle)};
-  if (!before && palm) before = wall_before(object, *palm, middle);
+  if (!before && looks.palm) before = wall_before(object, *looks.palm, middle);
   if (!before) return true;
   const std::optional<SurfacePoint> same =
       on_side_of(object, *before, *nearest, middle, search_m, known.hint);

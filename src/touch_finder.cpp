@@ -341,8 +341,8 @@ PatchTouches find_touches(const TouchSearch& search, const PosedHand& posed,
   const Landing landing(search);
   const double farthest_m =
       reach_of_rows(search, landing, fastest_mps, farthest_way(search, posed));
-  std::optional<Vec3> palm;
-  if (!search.before) palm = posed.hand[Joint::palm].position;
+  PadLooks looks{search.object, std::nullopt, memory.travel_m, {}};
+  if (!search.before) looks.palm = posed.hand[Joint::palm].position;
   for (std::size_t i = 0; i < search.flesh.pads.size(); ++i) {
     const FleshPad& pad = search.flesh.pads[i];
     // Of a part, only what is about the nearest to the surface matters.
@@ -361,7 +361,7 @@ PatchTouches find_touches(const TouchSearch& search, const PosedHand& posed,
     const double near_m =
         reach_of_rows(search, landing, near.landing_mps, landing_part(search, near.way));
     const double reach_m = radius_m + std::max(near_m, pull_m);
-    if (!find_plane(search.object, palm, near.middle, reach_m, memory.travel_m, known)) continue;
+    if (!find_plane(looks, near.middle, reach_m, known)) continue;
     const double lowest_m = add_pad(search, landing, near, known, posed, patches, memory.rows);
     known.same_m = plane_serves(known, lowest_m);
     // One that faces away is not looked at again until it could have come what its skin lacks.
