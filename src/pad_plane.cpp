@@ -32,6 +32,11 @@ constexpr double kOtherSide = -0.5;
 constexpr double kJustOutside_m = 0.0005;
 /// Through a thicker wall no hand found anew is drawn back.
 constexpr double kThickestWall_m = 0.02;
+/// In an inside corner both sides count: where their normals differ by so much (cosine) and each is
+/// so far in front of the other, until the pad is so far from where it saw the other side.
+constexpr double kCornerCosine = 0.7;
+constexpr double kInFront_m = 0.0005;
+constexpr double kNearCorner_m = 0.015;
 /// A pad's curvature is learned from ways of about this length on; no sharper.
 constexpr double kLeastWay_m = 0.0017914;
 constexpr double kSharpest = 103.65;
@@ -75,6 +80,19 @@ std::optional<PadPlane> wall_before(const ScaledSurface& object, const Vec3& pal
   const double thickness = std::abs(in->normal.dot(way)) * (out ? out->distance : rest);
   if (thickness > kThickestWall_m) return std::nullopt;
   return PadPlane{middle, in->point, in->normal};
+}
+
+/// Whether two sides of the surface meet in an inside corner.
+bool is_inside_corner(const PadPlane& a, const PadPlane& b) {
+  const Vec3 way = b.point - a.point;
+  return a.normal.dot(b.normal) < kCornerCosine && a.normal.dot(way) > kInFront_m &&
+         b.normal.dot(-way) > kInFront_m;
+}
+
+/// Whether a pad is still near the other side of an inside corner.
+bool is_beside(const PadPlane& beside, const PadPlane& now) {
+  const Vec3 away = along_surface(now.middle - beside.point, beside.normal);
+  return is_inside_corner(beside, now) && away.norm() < kNearCorner_m;
 }
 
 double away_of(const Vec3& middle, const PadMemory& known) {
@@ -129,6 +147,7 @@ bool find_plane(PadLooks& looks, const Vec3& middle, double reach_m, PadMemory& 
   if (known.clearance_m - away_m > reach_m) return false;
   if (known.plane && away_m <= known.same_m) return true;
   std::optional<PadPlane> before = std::exchange(known.plane, std::nullopt);
+  const std::optional<PadPlane> beside = std::exchange(known.beside, std::nullopt);
   if (is_still_far(looks, middle, reach_m, known)) return false;
   const double search_m = reach_m + kFarSlack_m;
   const std::optional<SurfacePoint> nearest = look(object, middle, search_m, known);
@@ -137,6 +156,13 @@ bool find_plane(PadLooks& looks, const Vec3& middle, double reach_m, PadMemory& 
   if (nearest && far) known.outward = (middle - nearest->point).normalized();
   if (!nearest || far) return false;
   known.plane = PadPlane{middle, nearest->point, outward_normal(*nearest, middle)};
+  if (before &&
+      is_inside_corner(*before, *known.plane)) {  // no normal in between keeps out of both
+    known.beside = before;
+    known.curvature = 0.0;
+    return true;
+  }
+  if (beside && is_beside(*beside, *known.plane)) known.beside = beside;
   if (!before && looks.palm) before = wall_before(object, *looks.palm, middle);
   if (!before) return true;
   const std::optional<SurfacePoint> same =

@@ -223,12 +223,11 @@ ContactRow* add_row(const TouchSearch& search, const PosedHand& posed, const Pat
   return &row;
 }
 
-/// Takes in a pad's skin: rows for what is near, of which the lowest brakes, and what its part
-/// needs to know. Gives the lowest skin's height.
-double add_pad(const TouchSearch& search, const Landing& landing, const NearPad& near,
-               const PadMemory& known, const PosedHand& posed, PatchTouches& patches,
-               std::vector<ContactRow>& rows) {
-  const PadPlane plane = bent_plane(known, near.middle);
+/// Takes in a pad's skin over one plane: rows for what is near, of which the lowest brakes, and
+/// what its part needs to know. Gives the lowest skin's height.
+double add_skin(const TouchSearch& search, const Landing& landing, const NearPad& near,
+                const PadPlane& plane, double curvature, const PosedHand& posed,
+                PatchTouches& patches, std::vector<ContactRow>& rows) {
   const Vec3& normal = plane.normal;
   const Cushion cushion = cushion_under(search, near, normal);
   const FleshPad& pad = near.pad;
@@ -238,8 +237,8 @@ double add_pad(const TouchSearch& search, const Landing& landing, const NearPad&
     const FleshPoint& point = search.flesh.skin[k];
     const double gap_m = normal.dot(posed.flesh.position(point) - plane.point);
     const double cushion_m = cushion.under(gap_m, room_above(search, gap_m));
-    PatchTouch touch{gap_m,  cushion.lift_m - gap_m, &point,   plane.point,
-                     normal, known.curvature,        cushion_m};
+    PatchTouch touch{gap_m,    cushion.lift_m - gap_m, &point, plane.point, normal, curvature,
+                     cushion_m};
     join(touch, patches[kNearestSkin]);
     if (pad.part) {
       touch.depth_m = normal.dot(plane.point - search.tracked.position(point));
@@ -258,6 +257,17 @@ double add_pad(const TouchSearch& search, const Landing& landing, const NearPad&
   braking->brake_m = landing.brake_at(before_m);
   braking->stiffness = braking->brake_m > 0.0 ? kBrakeDamping / search.seconds : 0.0;
   return lowest.gap_m;
+}
+
+/// Over all that stands in for the surface near a pad.
+double add_pad(const TouchSearch& search, const Landing& landing, const NearPad& near,
+               const PadMemory& known, const PosedHand& posed, PatchTouches& patches,
+               std::vector<ContactRow>& rows) {
+  const double lowest_m = add_skin(search, landing, near, bent_plane(known, near.middle),
+                                   known.curvature, posed, patches, rows);
+  if (!known.beside) return lowest_m;
+  return std::min(lowest_m,
+                  add_skin(search, landing, near, *known.beside, 0.0, posed, patches, rows));
 }
 
 /// How strong a pull is, as `SettleMemory::pulls` has it: it comes in time, and goes at once.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -11,7 +12,7 @@
 #include "support/meshes.h"
 #include "support/pressed_hand.h"
 
-// Hands over the edge of a box.
+// Hands over the edge of a box, and in an inside corner.
 
 namespace nade {
 namespace {
@@ -83,6 +84,54 @@ TEST(SettleEdge, ABevelledEdgeIsAnEdge) {
   for (const float bevel_m : {0.0005F, 0.002F, 0.005F, 0.01F}) {
     const auto box = box_at({0.0, -0.2, 0.17}, bevel_m);
     EXPECT_LT(away_after_a_way_over(Object(*box), 0.05), 0.01) << bevel_m << " m";
+  }
+}
+
+/// A floor at y = 0 that ends at z = 0 with a wall, at so much inside of the corner.
+std::unique_ptr<MeshSurface> floor_and_wall(double corner_rad) {
+  constexpr float kWide_m = 1.0F;
+  const auto lean_m = static_cast<float>(0.4 / std::tan(corner_rad));
+  const std::vector<test::Vec3f> profile{{0.0F, 0.0F, 0.0F},  {0.0F, 0.0F, 1.0F},
+                                         {0.0F, -0.2F, 1.0F}, {0.0F, -0.2F, -0.2F},
+                                         {0.0F, 0.4F, -0.2F}, {0.0F, 0.4F, lean_m}};
+  TriangleSoup soup;
+  const auto corners = static_cast<std::uint32_t>(profile.size());
+  for (const float side : {-kWide_m, kWide_m}) {
+    for (const test::Vec3f& corner : profile)
+      soup.vertices.push_back(corner + side * test::Vec3f::UnitX());
+  }
+  for (std::uint32_t i = 0; i < corners; ++i) {
+    const std::uint32_t next = (i + 1) % corners;
+    soup.triangles.push_back({i, next, next + corners});
+    soup.triangles.push_back({i, next + corners, i + corners});
+    if (i == 0 || next == 0) continue;
+    soup.triangles.push_back({0, next, i});
+    soup.triangles.push_back({corners, i + corners, next + corners});
+  }
+  return MeshSurface::build(soup, "corner").value();
+}
+
+/// Of skin that lies on a floor, all that its pads knew was the floor: fingers that slid on went
+/// into the wall by 2 to 19 mm, as the way out of it turned slowly from one to the other.
+TEST(SettleEdge, FingersThatSlideOnIntoAnInsideCornerStayOutOfBothSides) {
+  for (const double corner : {60.0, 90.0}) {
+    const auto surface = floor_and_wall(test::rad(corner));
+    for (const double heading : {0.0, 20.0}) {
+      const Quat aside(Eigen::AngleAxisd(test::rad(heading), Vec3::UnitY()));
+      const Object object(*surface, {{Vec3::Zero(), aside}, 1.0});
+      for (const double speed_mps : {0.1, 0.3, 0.8}) {
+        HandCorrector corrector(settling());
+        const int frames = static_cast<int>(90.0 * 0.3 / speed_mps);
+        for (int i = 0; i < 90 + frames; ++i) {
+          const double along_m = 0.3 - speed_mps * std::max(0, i - 90) / 90.0;
+          const HandPose tracked =
+              pressed_hand(-0.08 + 0.1 * eased(i / 90.0), 0.0, aside * Vec3(0.0, 0.0, along_m));
+          const HandPose& drawn = corrector.update(tracked, object, i * kFrame_ns).pose;
+          ASSERT_GT(lowest_skin(drawn, object), -0.002) << corner << " degrees, heading " << heading
+                                                        << ", " << speed_mps << " m/s, frame " << i;
+        }
+      }
+    }
   }
 }
 

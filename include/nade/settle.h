@@ -39,6 +39,7 @@ struct PadPlane {
 struct PadMemory {
   SurfaceHint hint;
   std::optional<PadPlane> plane;
+  std::optional<PadPlane> beside;  ///< the other side of the inside corner that it is in
   Vec3 seen_from = Vec3::Zero();  ///< where it was looked from last
   Vec3 outward = Vec3::Zero();    ///< unit, off the surface, where it was too far; zero elsewhere
   double curvature = 0.0;         ///< there, along the way that the pad went, 1/m; convex above 0
