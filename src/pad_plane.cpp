@@ -82,6 +82,18 @@ std::optional<PadPlane> wall_before(const ScaledSurface& object, const Vec3& pal
   return PadPlane{middle, in->point, in->normal};
 }
 
+/// Lets a plane that was found anew go on from the one before it.
+void go_on_from(const PadPlane& before, const ScaledSurface& object, const SurfacePoint& nearest,
+                double search_m, PadMemory& known) {
+  const Vec3 middle = known.plane->middle;
+  const std::optional<SurfacePoint> same =
+      on_side_of(object, before, nearest, middle, search_m, known.hint);
+  if (same) known.plane = PadPlane{middle, same->point, same->normal};
+  const Vec3 way = middle - before.middle;
+  turn_slowly(before, way.norm(), *known.plane);
+  learn_curvature(before, way, *known.plane, known);
+}
+
 /// Whether two sides of the surface meet in an inside corner.
 bool is_inside_corner(const PadPlane& a, const PadPlane& b) {
   const Vec3 way = b.point - a.point;
@@ -156,21 +168,15 @@ bool find_plane(PadLooks& looks, const Vec3& middle, double reach_m, PadMemory& 
   if (nearest && far) known.outward = (middle - nearest->point).normalized();
   if (!nearest || far) return false;
   known.plane = PadPlane{middle, nearest->point, outward_normal(*nearest, middle)};
-  if (before &&
-      is_inside_corner(*before, *known.plane)) {  // no normal in between keeps out of both
+  // In a corner no direction in between keeps out of both sides.
+  if (before && is_inside_corner(*before, *known.plane)) {
     known.beside = before;
     known.curvature = 0.0;
     return true;
   }
   if (beside && is_beside(*beside, *known.plane)) known.beside = beside;
   if (!before && looks.palm) before = wall_before(object, *looks.palm, middle);
-  if (!before) return true;
-  const std::optional<SurfacePoint> same =
-      on_side_of(object, *before, *nearest, middle, search_m, known.hint);
-  if (same) known.plane = PadPlane{middle, same->point, same->normal};
-  const Vec3 way = middle - before->middle;
-  turn_slowly(*before, way.norm(), *known.plane);
-  learn_curvature(*before, way, *known.plane, known);
+  if (before) go_on_from(*before, object, *nearest, search_m, known);
   return true;
 }
 
