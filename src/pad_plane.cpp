@@ -19,8 +19,9 @@ constexpr double kSameOfGap = 0.2;
 /// A pad that is too far is not looked at again until it could have come so much nearer.
 constexpr double kFarSlack_m = 0.02;
 /// And then from so much farther out: the larger a ball is that rests on the surface, the farther
-/// along the surface a pad can go in it. To know that it is free costs less than where it ends.
+/// along the surface a pad can go in it.
 constexpr double kFartherOut_m = 0.02;
+/// That it is free by so much more than is needed costs less to know than where the surface is.
 constexpr double kFartherSlack_m = 0.005;
 /// Another pad's ball serves as well that leaves so much more than is needed.
 constexpr double kSharedSlack_m = 0.002;
@@ -32,11 +33,12 @@ constexpr double kOtherSide = -0.5;
 constexpr double kJustOutside_m = 0.0005;
 /// Through a thicker wall no hand found anew is drawn back.
 constexpr double kThickestWall_m = 0.02;
-/// In an inside corner both sides count: where their normals differ by so much (cosine) and each is
-/// so far in front of the other, until the pad is so far from where it saw the other side.
+/// Two sides of the surface meet in an inside corner where their normals differ by so much (cosine)
+/// and each is so far in front of the other.
 constexpr double kCornerCosine = 0.7;
 constexpr double kInFront_m = 0.0005;
-constexpr double kNearCorner_m = 0.015;
+/// A pad is in the corner until it is so far from where it saw the other side.
+constexpr double kNearCorner_m = 0.02;
 /// A pad's curvature is learned from ways of about this length on; no sharper.
 constexpr double kLeastWay_m = 0.0017914;
 constexpr double kSharpest = 103.65;
@@ -94,17 +96,11 @@ void go_on_from(const PadPlane& before, const ScaledSurface& object, const Surfa
   learn_curvature(before, way, *known.plane, known);
 }
 
-/// Whether two sides of the surface meet in an inside corner.
-bool is_inside_corner(const PadPlane& a, const PadPlane& b) {
-  const Vec3 way = b.point - a.point;
-  return a.normal.dot(b.normal) < kCornerCosine && a.normal.dot(way) > kInFront_m &&
-         b.normal.dot(-way) > kInFront_m;
-}
-
-/// Whether a pad is still near the other side of an inside corner.
-bool is_beside(const PadPlane& beside, const PadPlane& now) {
-  const Vec3 away = along_surface(now.middle - beside.point, beside.normal);
-  return is_inside_corner(beside, now) && away.norm() < kNearCorner_m;
+/// Whether a pad is in an inside corner between its plane and another side that it saw.
+bool is_in_corner(const PadPlane& side, const PadPlane& now) {
+  const Vec3 way = now.point - side.point;
+  return side.normal.dot(now.normal) < kCornerCosine && side.normal.dot(way) > kInFront_m &&
+         now.normal.dot(-way) > kInFront_m && (now.middle - side.middle).norm() < kNearCorner_m;
 }
 
 double away_of(const Vec3& middle, const PadMemory& known) {
@@ -168,15 +164,15 @@ bool find_plane(PadLooks& looks, const Vec3& middle, double reach_m, PadMemory& 
   if (nearest && far) known.outward = (middle - nearest->point).normalized();
   if (!nearest || far) return false;
   known.plane = PadPlane{middle, nearest->point, outward_normal(*nearest, middle)};
-  // In a corner no direction in between keeps out of both sides.
-  if (before && is_inside_corner(*before, *known.plane)) {
+  // In a corner no direction in between keeps out of both sides. A hand found anew comes from none.
+  if (before && !looks.palm && is_in_corner(*before, *known.plane)) {
     known.beside = before;
     known.curvature = 0.0;
     return true;
   }
-  if (beside && is_beside(*beside, *known.plane)) known.beside = beside;
   if (!before && looks.palm) before = wall_before(object, *looks.palm, middle);
   if (before) go_on_from(*before, object, *nearest, search_m, known);
+  if (beside && is_in_corner(*beside, *known.plane)) known.beside = beside;
   return true;
 }
 

@@ -111,8 +111,8 @@ std::unique_ptr<MeshSurface> floor_and_wall(double corner_rad) {
   return MeshSurface::build(soup, "corner").value();
 }
 
-/// Of skin that lies on a floor, all that its pads knew was the floor: fingers that slid on went
-/// into the wall by 2 to 19 mm, as the way out of it turned slowly from one to the other.
+/// The way out of the object turned slowly from one side to the other, and kept out of neither:
+/// fingers that slid on along the floor went into the wall by up to 13 mm.
 TEST(SettleEdge, FingersThatSlideOnIntoAnInsideCornerStayOutOfBothSides) {
   for (const double corner : {60.0, 90.0}) {
     const auto surface = floor_and_wall(test::rad(corner));
@@ -129,6 +129,28 @@ TEST(SettleEdge, FingersThatSlideOnIntoAnInsideCornerStayOutOfBothSides) {
           const HandPose& drawn = corrector.update(tracked, object, i * kFrame_ns).pose;
           ASSERT_GT(lowest_skin(drawn, object), -0.002) << corner << " degrees, heading " << heading
                                                         << ", " << speed_mps << " m/s, frame " << i;
+        }
+      }
+    }
+  }
+}
+
+/// It comes from neither side, and what its pads see on their way out is no corner that they are
+/// in: they held it up to 39 mm inside.
+TEST(SettleEdge, AHandFoundInAnInsideCornerComesOut) {
+  for (const double corner : {60.0, 90.0}) {
+    const auto surface = floor_and_wall(test::rad(corner));
+    for (const double heading : {-90.0, 0.0, 90.0}) {
+      const Quat aside(Eigen::AngleAxisd(test::rad(heading), Vec3::UnitY()));
+      const Object object(*surface, {{Vec3::Zero(), aside}, 1.0});
+      for (const double depth_m : {0.02, 0.05, 0.08}) {
+        for (const double along_m : {0.0, 0.05, 0.1}) {
+          HandCorrector corrector(settling());
+          const HandPose found = pressed_hand(depth_m, 0.0, aside * Vec3(0.0, 0.0, along_m));
+          const HandPose& drawn = corrector.update(found, object, 0).pose;
+          EXPECT_GT(lowest_skin(drawn, object), -0.002)
+              << corner << " degrees, heading " << heading << ", " << depth_m << " m deep, "
+              << along_m << " m from the wall";
         }
       }
     }
