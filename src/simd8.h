@@ -14,6 +14,13 @@
 namespace nade::detail {
 namespace {  // NOLINT(cert-dcl59-cpp): see above
 
+#if defined(__SSE2__)
+inline float lowest4(__m128 four) {
+  const __m128 two = _mm_min_ps(four, _mm_movehl_ps(four, four));
+  return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
+}
+#endif
+
 #if defined(__AVX2__) && defined(__FMA__)
 
 struct Float8 {
@@ -44,6 +51,9 @@ inline Float8 select8(Float8 mask, Float8 a, Float8 b) {
 }
 /// Bit i is the sign bit of lane i.
 inline unsigned bits8(Float8 mask) { return static_cast<unsigned>(_mm256_movemask_ps(mask.v)); }
+inline float lowest8(Float8 a) {
+  return lowest4(_mm_min_ps(_mm256_castps256_ps128(a.v), _mm256_extractf128_ps(a.v, 1)));
+}
 
 #elif defined(__SSE2__)
 
@@ -91,6 +101,7 @@ inline unsigned bits8(Float8 mask) {
   return static_cast<unsigned>(_mm_movemask_ps(mask.lo)) |
          static_cast<unsigned>(_mm_movemask_ps(mask.hi)) << 4;
 }
+inline float lowest8(Float8 a) { return lowest4(_mm_min_ps(a.lo, a.hi)); }
 
 #else
 
@@ -152,6 +163,12 @@ inline unsigned bits8(Float8 mask) {
     bits |= (static_cast<unsigned>(((Mask4)mask.hi)[i]) >> 31) << (i + 4);
   }
   return bits;
+}
+inline float lowest8(Float8 a) {
+  const Lanes4 four = blend4(a.lo < a.hi, a.lo, a.hi);
+  const float even = four[0] < four[2] ? four[0] : four[2];
+  const float odd = four[1] < four[3] ? four[1] : four[3];
+  return even < odd ? even : odd;
 }
 
 #endif

@@ -209,16 +209,10 @@ inline void nearest_in_block(const TriangleBlock* blocks, std::uint32_t index, c
   const Float8 to_edges =
       min8(segment_squared(pa, ab), min8(segment_squared(pb, bc), segment_squared(pc, ca)));
   const Float8 squared = select8(above, to_plane, to_edges);
-  unsigned lanes = bits8(less8(squared, all8(best.squared)));
-  if (lanes == 0) return;
-  float values[kTreeWidth];
-  store8(values, squared);
-  for (; lanes != 0; lanes &= lanes - 1) {
-    const int lane = __builtin_ctz(lanes);
-    if (values[lane] < best.squared) {
-      best = {values[lane], index * kTreeWidth + static_cast<std::uint32_t>(lane)};
-    }
-  }
+  const float lowest = lowest8(squared);
+  if (!(lowest < best.squared)) return;
+  const int lane = __builtin_ctz(bits8(less_equal8(squared, all8(lowest))));
+  best = {lowest, index * kTreeWidth + static_cast<std::uint32_t>(lane)};
 }
 
 inline Float8 box_squared(const TreeNode& node, const Vec8& point) {
