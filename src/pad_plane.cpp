@@ -33,6 +33,10 @@ constexpr double kOtherSide = -0.5;
 constexpr double kJustOutside_m = 0.0005;
 /// Through a thicker wall no hand found anew is drawn back.
 constexpr double kThickestWall_m = 0.02;
+/// A pad that goes farther than this in a frame could go through a wall before that is what is
+/// nearest to it: it looks along its way, and so much farther.
+constexpr double kLongWay_m = 0.005;
+constexpr double kAhead_m = 0.01;
 /// Two sides of the surface meet in an inside corner where their normals differ by so much (cosine)
 /// and each is so far in front of the other.
 constexpr double kCornerCosine = 0.7;
@@ -84,6 +88,17 @@ std::optional<PadPlane> wall_before(const ScaledSurface& object, const Vec3& pal
   return PadPlane{middle, in->point, in->normal};
 }
 
+/// The wall, if any, that a pad meets which comes a long way.
+std::optional<PadPlane> wall_on_way(const ScaledSurface& object, const Vec3& middle,
+                                    const Vec3& way) {
+  const double length_m = way.norm();
+  if (length_m < kLongWay_m) return std::nullopt;
+  const std::optional<RayHit> hit =
+      object.first_hit({middle - way, way / length_m, length_m + kAhead_m});
+  if (!hit || hit->from_inside) return std::nullopt;
+  return PadPlane{middle, hit->point, hit->normal};
+}
+
 /// Lets a plane that was found anew go on from the one before it.
 void go_on_from(const PadPlane& before, const ScaledSurface& object, const SurfacePoint& nearest,
                 double search_m, PadMemory& known) {
@@ -96,11 +111,43 @@ void go_on_from(const PadPlane& before, const ScaledSurface& object, const Surfa
   learn_curvature(before, way, *known.plane, known);
 }
 
-/// Whether a pad is in an inside corner between its plane and another side that it saw.
-bool is_in_corner(const PadPlane& side, const PadPlane& now) {
-  const Vec3 way = now.point - side.point;
-  return side.normal.dot(now.normal) < kCornerCosine && side.normal.dot(way) > kInFront_m &&
-         now.normal.dot(-way) > kInFront_m && (now.middle - side.middle).norm() < kNearCorner_m;
+/// Whether two planes are of sides that may meet in a corner.
+bool are_two_sides(const PadPlane& one, const PadPlane& other) {
+  return one.normal.dot(other.normal) < kCornerCosine;
+}
+
+/// Whether a side stands out of a plane: over an edge it would fall away behind it.
+bool stands_out(const PadPlane& side, const PadPlane& plane) {
+  return are_two_sides(side, plane) && plane.normal.dot(side.point - plane.point) > kInFront_m;
+}
+
+/// Whether a pad that came so far in the frame is in an inside corner between its plane and another
+/// side that it saw.
+bool is_in_corner(const PadPlane& side, const PadPlane& now, double way_m) {
+  return stands_out(side, now) && stands_out(now, side) &&
+         (now.middle - side.middle).norm() < kNearCorner_m + way_m;
+}
+
+/// Takes one more side into the corner that a pad is in, if it is another one.
+void add_side(const PadPlane& side, PadMemory& known) {
+  OtherSides& sides = known.beside;
+  const auto differs = [&](const PadPlane& other) { return are_two_sides(side, other); };
+  if (sides.count == sides.planes.size() || !differs(*known.plane)) return;
+  if (!std::all_of(sides.planes.begin(), sides.planes.begin() + sides.count, differs)) return;
+  sides.planes[sides.count++] = side;
+}
+
+/// Finds the sides that a pad keeps out of besides its plane: what it meets, where it comes from,
+/// and those that it knew. Gives whether one of the first two is among them.
+bool find_corner(const std::optional<PadPlane>& wall, const std::optional<PadPlane>& before,
+                 const OtherSides& beside, double way_m, PadMemory& known) {
+  if (wall && stands_out(*wall, *known.plane)) add_side(*wall, known);
+  if (before && is_in_corner(*before, *known.plane, way_m)) add_side(*before, known);
+  const bool is_new = known.beside.count > 0;
+  for (std::size_t i = 0; i < beside.count; ++i) {
+    if (is_in_corner(beside.planes[i], *known.plane, way_m)) add_side(beside.planes[i], known);
+  }
+  return is_new;
 }
 
 double away_of(const Vec3& middle, const PadMemory& known) {
@@ -149,13 +196,14 @@ double left_of(const Vec3& middle, double travel_m, PadMemory& known) noexcept {
   return left_m;
 }
 
-bool find_plane(PadLooks& looks, const Vec3& middle, double reach_m, PadMemory& known) noexcept {
+bool find_plane(PadLooks& looks, const Vec3& middle, const Vec3& way, double reach_m,
+                PadMemory& known) noexcept {
   const ScaledSurface& object = looks.object;
   const double away_m = away_of(middle, known);
   if (known.clearance_m - away_m > reach_m) return false;
   if (known.plane && away_m <= known.same_m) return true;
   std::optional<PadPlane> before = std::exchange(known.plane, std::nullopt);
-  const std::optional<PadPlane> beside = std::exchange(known.beside, std::nullopt);
+  const OtherSides beside = std::exchange(known.beside, {});
   if (is_still_far(looks, middle, reach_m, known)) return false;
   const double search_m = reach_m + kFarSlack_m;
   const std::optional<SurfacePoint> nearest = look(object, middle, search_m, known);
@@ -164,15 +212,15 @@ bool find_plane(PadLooks& looks, const Vec3& middle, double reach_m, PadMemory& 
   if (nearest && far) known.outward = (middle - nearest->point).normalized();
   if (!nearest || far) return false;
   known.plane = PadPlane{middle, nearest->point, outward_normal(*nearest, middle)};
+  const std::optional<PadPlane> wall = wall_on_way(object, middle, way);
+  if (wall && wall->normal.dot(known.plane->normal) <= kOtherSide) known.plane = wall;
   // In a corner no direction in between keeps out of both sides. A hand found anew comes from none.
-  if (before && !looks.palm && is_in_corner(*before, *known.plane)) {
-    known.beside = before;
+  if (!looks.palm && find_corner(wall, before, beside, way.norm(), known)) {
     known.curvature = 0.0;
     return true;
   }
   if (!before && looks.palm) before = wall_before(object, *looks.palm, middle);
   if (before) go_on_from(*before, object, *nearest, search_m, known);
-  if (beside && is_in_corner(*beside, *known.plane)) known.beside = beside;
   return true;
 }
 

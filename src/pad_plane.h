@@ -41,8 +41,9 @@ struct PadLooks {
 [[nodiscard]] double left_of(const Vec3& middle, double travel_m, PadMemory& known) noexcept;
 
 /// Whether a pad is within `reach_m`; its plane then is found anew, or as it was. Where a thin wall
-/// is between it and the palm of a hand found anew, the palm's side of it counts.
-[[nodiscard]] bool find_plane(PadLooks& looks, const Vec3& middle, double reach_m,
+/// is between it and the palm of a hand found anew, the palm's side of it counts; where a wall is
+/// on the way that it came since the last frame, the side that it came from.
+[[nodiscard]] bool find_plane(PadLooks& looks, const Vec3& middle, const Vec3& way, double reach_m,
                               PadMemory& known) noexcept;
 
 /// The plane for a pad that has gone on since its own was found, over a surface that goes on to

@@ -19,7 +19,7 @@ SettleMemory settle_memory(const HandFlesh& flesh) {
 void forget_planes(SettleMemory& memory) noexcept {
   for (PadMemory& pad : memory.pads) {
     pad.plane.reset();
-    pad.beside.reset();
+    pad.beside = {};
     pad.clearance_m = pad.free_m = pad.out_until_m = 0.0;
   }
 }

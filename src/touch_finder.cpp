@@ -263,11 +263,14 @@ double add_skin(const TouchSearch& search, const Landing& landing, const NearPad
 double add_pad(const TouchSearch& search, const Landing& landing, const NearPad& near,
                const PadMemory& known, const PosedHand& posed, PatchTouches& patches,
                std::vector<ContactRow>& rows) {
-  const double lowest_m = add_skin(search, landing, near, bent_plane(known, near.middle),
-                                   known.curvature, posed, patches, rows);
-  if (!known.beside) return lowest_m;
-  return std::min(lowest_m,
-                  add_skin(search, landing, near, *known.beside, 0.0, posed, patches, rows));
+  const auto add = [&](const PadPlane& plane, double curvature) {
+    return add_skin(search, landing, near, plane, curvature, posed, patches, rows);
+  };
+  double lowest_m = add(bent_plane(known, near.middle), known.curvature);
+  for (std::size_t i = 0; i < known.beside.count; ++i) {
+    lowest_m = std::min(lowest_m, add(known.beside.planes[i], 0.0));
+  }
+  return lowest_m;
 }
 
 /// How strong a pull is, as `SettleMemory::pulls` has it: it comes in time, and goes at once.
@@ -371,7 +374,7 @@ PatchTouches find_touches(const TouchSearch& search, const PosedHand& posed,
     const double near_m =
         reach_of_rows(search, landing, near.landing_mps, landing_part(search, near.way));
     const double reach_m = radius_m + std::max(near_m, pull_m);
-    if (!find_plane(looks, near.middle, reach_m, known)) continue;
+    if (!find_plane(looks, near.middle, near.way, reach_m, known)) continue;
     const double lowest_m = add_pad(search, landing, near, known, posed, patches, memory.rows);
     known.same_m = plane_serves(known, lowest_m);
     // One that faces away is not looked at again until it could have come what its skin lacks.

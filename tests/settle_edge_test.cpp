@@ -149,6 +149,56 @@ TEST(SettleEdge, FingersThatSlideOnIntoAnInsideCornerStayOutOfBothSides) {
   }
 }
 
+/// A floor at y = 0 and on it a wall whose front is at z = 0.
+std::unique_ptr<MeshSurface> floor_and_thin_wall(float thick_m) {
+  constexpr float kHigh_m = 0.4F;
+  const TriangleSoup ground =
+      test::shifted(test::box_mesh({1.0F, 0.1F, 1.0F}), {0.0F, -0.1F, 0.0F});
+  const TriangleSoup wall = test::shifted(test::box_mesh({1.0F, 0.5F * kHigh_m, 0.5F * thick_m}),
+                                          {0.0F, 0.4F * kHigh_m, -0.5F * thick_m});
+  return MeshSurface::build(test::joined(ground, wall), "thin wall").value();
+}
+
+/// How far any skin of a hand lies beyond z = 0.
+double farthest_beyond(const HandPose& hand) {
+  double farthest_m = -std::numeric_limits<double>::infinity();
+  for (const FleshPoint& point : generic_flesh(hand.side).skin) {
+    farthest_m = std::max(farthest_m, -test::position_of(point, hand, 1.0).z());
+  }
+  return farthest_m;
+}
+
+/// Down onto the floor and straight on far into the wall, turned so far from fingers first. Gives
+/// how far beyond the wall's front any skin is on the way.
+double farthest_on_the_way_in(const Object& object, double heading_rad, double speed_mps) {
+  const Quat turn(Eigen::AngleAxisd(heading_rad, Vec3::UnitY()));
+  HandCorrector corrector(settling());
+  double farthest_m = -std::numeric_limits<double>::infinity();
+  const int frames = 60 + static_cast<int>(90.0 * 0.4 / speed_mps);
+  for (int i = 0; i < frames; ++i) {
+    const Vec3 from_wall(0.0, 0.0, 0.25 - speed_mps * std::max(0, i - 60) / 90.0);
+    const HandPose down = pressed_hand(-0.08 + 0.085 * eased(i / 60.0));
+    const HandPose tracked = moved(down, {from_wall, turn});
+    const HandPose& drawn = corrector.update(tracked, object, i * kFrame_ns).pose;
+    farthest_m = std::max(farthest_m, farthest_beyond(drawn));
+  }
+  return farthest_m;
+}
+
+/// Pads saw the wall only when it was nearer than the floor; by then fingers were up to 40 mm
+/// beyond it.
+TEST(SettleEdge, FingersThatSlideFastIntoAThinWallStayBeforeIt) {
+  for (const float thick_m : {0.001F, 0.004F}) {
+    const auto surface = floor_and_thin_wall(thick_m);
+    for (const double heading : {0.0, 30.0, 90.0}) {
+      for (const double speed_mps : {0.8, 1.6}) {
+        EXPECT_LT(farthest_on_the_way_in(Object(*surface), test::rad(heading), speed_mps), 0.0025)
+            << thick_m << " m thick, heading " << heading << ", " << speed_mps << " m/s";
+      }
+    }
+  }
+}
+
 /// It comes from neither side, and what its pads see on their way out is no corner that they are
 /// in: they held it up to 39 mm inside.
 TEST(SettleEdge, AHandFoundInAnInsideCornerComesOut) {

@@ -35,17 +35,23 @@ struct PadPlane {
   Vec3 normal = Vec3::UnitY();  ///< unit, out of the solid
 };
 
+/// The sides of an inside corner besides the nearest: three meet in a point.
+struct OtherSides {
+  std::array<PadPlane, 2> planes;
+  std::size_t count = 0;
+};
+
 /// What is remembered of a pad.
 struct PadMemory {
   SurfaceHint hint;
   std::optional<PadPlane> plane;
-  std::optional<PadPlane> beside;  ///< the other side of the inside corner that it is in
-  Vec3 seen_from = Vec3::Zero();   ///< where it, or one whose ball it shares, looked from last
-  Vec3 outward = Vec3::Zero();     ///< unit, off the surface, where it was too far; zero elsewhere
-  double curvature = 0.0;          ///< there, along the way that the pad went, 1/m; convex above 0
-  double same_m = 0.0;             ///< the plane serves within this of there
-  double clearance_m = 0.0;        ///< there; more where its skin faces away
-  double free_m = 0.0;             ///< what was left of that when last seen, plus `travel_m` then
+  OtherSides beside;              ///< of the inside corner that it is in
+  Vec3 seen_from = Vec3::Zero();  ///< where it, or one whose ball it shares, looked from last
+  Vec3 outward = Vec3::Zero();    ///< unit, off the surface, where it was too far; zero elsewhere
+  double curvature = 0.0;         ///< there, along the way that the pad went, 1/m; convex above 0
+  double same_m = 0.0;            ///< the plane serves within this of there
+  double clearance_m = 0.0;       ///< there; more where its skin faces away
+  double free_m = 0.0;            ///< what was left of that when last seen, plus `travel_m` then
   double out_until_m = 0.0;  ///< the tracked hand's pad is out of the object up to this `way_m`
 };
 
