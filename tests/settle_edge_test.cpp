@@ -149,38 +149,47 @@ TEST(SettleEdge, FingersThatSlideOnIntoAnInsideCornerStayOutOfBothSides) {
   }
 }
 
-/// A floor at y = 0 and on it a wall whose front is at z = 0.
-std::unique_ptr<MeshSurface> floor_and_thin_wall(float thick_m) {
-  constexpr float kHigh_m = 0.4F;
-  const TriangleSoup ground =
-      test::shifted(test::box_mesh({1.0F, 0.1F, 1.0F}), {0.0F, -0.1F, 0.0F});
-  const TriangleSoup wall = test::shifted(test::box_mesh({1.0F, 0.5F * kHigh_m, 0.5F * thick_m}),
-                                          {0.0F, 0.4F * kHigh_m, -0.5F * thick_m});
-  return MeshSurface::build(test::joined(ground, wall), "thin wall").value();
+/// A floor at y = 0 and on it walls: thin, their fronts through the origin, facing so.
+std::unique_ptr<MeshSurface> floor_and_thin_walls(const std::vector<test::Vec3f>& facing,
+                                                  float thick_m) {
+  TriangleSoup soup = test::shifted(test::box_mesh({1.0F, 0.1F, 1.0F}), {0.0F, -0.1F, 0.0F});
+  for (const test::Vec3f& normal : facing) {
+    const test::Vec3f along = test::Vec3f::UnitY().cross(normal).cwiseAbs();
+    const test::Vec3f half_size = along + 0.5F * thick_m * normal + 0.2F * test::Vec3f::UnitY();
+    const test::Vec3f middle = 0.15F * test::Vec3f::UnitY() - 0.5F * thick_m * normal;
+    soup = test::joined(soup, test::shifted(test::box_mesh(half_size), middle));
+  }
+  return MeshSurface::build(soup, "walls").value();
 }
 
-/// How far any skin of a hand lies beyond z = 0.
-double farthest_beyond(const HandPose& hand) {
+/// How far the skin of a hand that is farthest beyond such a wall is.
+double farthest_beyond(const std::vector<test::Vec3f>& facing, const HandPose& hand) {
   double farthest_m = -std::numeric_limits<double>::infinity();
   for (const FleshPoint& point : generic_flesh(hand.side).skin) {
-    farthest_m = std::max(farthest_m, -test::position_of(point, hand, 1.0).z());
+    const Vec3 skin = test::position_of(point, hand, 1.0);
+    for (const test::Vec3f& normal : facing) {
+      farthest_m = std::max(farthest_m, -normal.cast<double>().dot(skin));
+    }
   }
   return farthest_m;
 }
 
-/// Down onto the floor and straight on far into the wall, turned so far from fingers first. Gives
-/// how far beyond the wall's front any skin is on the way.
-double farthest_on_the_way_in(const Object& object, double heading_rad, double speed_mps) {
+/// Down onto the floor and straight through such walls, for 0.4 m, with the middle finger ahead or
+/// turned from there. Gives how far beyond any of them skin is on the way.
+double farthest_on_the_way_through(const std::vector<test::Vec3f>& facing, float thick_m,
+                                   const Vec3& from, double heading_rad, double speed_mps) {
+  const auto surface = floor_and_thin_walls(facing, thick_m);
+  const Object object(*surface);
   const Quat turn(Eigen::AngleAxisd(heading_rad, Vec3::UnitY()));
   HandCorrector corrector(settling());
   double farthest_m = -std::numeric_limits<double>::infinity();
   const int frames = 60 + static_cast<int>(90.0 * 0.4 / speed_mps);
   for (int i = 0; i < frames; ++i) {
-    const Vec3 from_wall(0.0, 0.0, 0.25 - speed_mps * std::max(0, i - 60) / 90.0);
+    const Vec3 gone = speed_mps * std::max(0, i - 60) / 90.0 * from.normalized();
     const HandPose down = pressed_hand(-0.08 + 0.085 * eased(i / 60.0));
-    const HandPose tracked = moved(down, {from_wall, turn});
+    const HandPose tracked = moved(down, {from - gone, turn});
     const HandPose& drawn = corrector.update(tracked, object, i * kFrame_ns).pose;
-    farthest_m = std::max(farthest_m, farthest_beyond(drawn));
+    farthest_m = std::max(farthest_m, farthest_beyond(facing, drawn));
   }
   return farthest_m;
 }
@@ -188,13 +197,29 @@ double farthest_on_the_way_in(const Object& object, double heading_rad, double s
 /// Pads saw the wall only when it was nearer than the floor; by then fingers were up to 40 mm
 /// beyond it.
 TEST(SettleEdge, FingersThatSlideFastIntoAThinWallStayBeforeIt) {
+  const std::vector facing{test::Vec3f(test::Vec3f::UnitZ())};
+  const Vec3 from(0.0, 0.0, 0.25);
   for (const float thick_m : {0.001F, 0.004F}) {
-    const auto surface = floor_and_thin_wall(thick_m);
     for (const double heading : {0.0, 30.0, 90.0}) {
       for (const double speed_mps : {0.8, 1.6}) {
-        EXPECT_LT(farthest_on_the_way_in(Object(*surface), test::rad(heading), speed_mps), 0.0025)
+        EXPECT_LT(farthest_on_the_way_through(facing, thick_m, from, test::rad(heading), speed_mps),
+                  0.0025)
             << thick_m << " m thick, heading " << heading << ", " << speed_mps << " m/s";
       }
+    }
+  }
+}
+
+/// Where three sides meet fingers were up to 5 mm beyond one.
+TEST(SettleEdge, AFastHandStaysInARoomsCorner) {
+  const std::vector facing{test::Vec3f(test::Vec3f::UnitX()), test::Vec3f(test::Vec3f::UnitZ())};
+  const double direction = test::rad(70.0);
+  const Vec3 from = 0.3 * Vec3(std::sin(direction), 0.0, std::cos(direction));
+  for (const double heading : {0.0, 45.0}) {
+    for (const double speed_mps : {0.8, 1.2}) {
+      EXPECT_LT(farthest_on_the_way_through(facing, 0.004F, from, test::rad(heading), speed_mps),
+                0.0025)
+          << "heading " << heading << ", " << speed_mps << " m/s";
     }
   }
 }
