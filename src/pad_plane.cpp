@@ -41,7 +41,8 @@ constexpr double kAhead_m = 0.01;
 /// and each is so far in front of the other.
 constexpr double kCornerCosine = 0.7;
 constexpr double kInFront_m = 0.0005;
-/// A pad is in the corner until it is so far from where it saw the other side.
+/// A pad is in the corner until it is so far from where it saw the other side, besides the way that
+/// it came in the frame.
 constexpr double kNearCorner_m = 0.02;
 /// A pad's curvature is learned from ways of about this length on; no sharper.
 constexpr double kLeastWay_m = 0.0017914;
@@ -128,12 +129,12 @@ bool is_in_corner(const PadPlane& side, const PadPlane& now, double way_m) {
          (now.middle - side.middle).norm() < kNearCorner_m + way_m;
 }
 
-/// Takes one more side into the corner that a pad is in, if it is another one.
-void add_side(const PadPlane& side, PadMemory& known) {
-  OtherSides& sides = known.beside;
-  const auto differs = [&](const PadPlane& other) { return are_two_sides(side, other); };
-  if (sides.count == sides.planes.size() || !differs(*known.plane)) return;
-  if (!std::all_of(sides.planes.begin(), sides.planes.begin() + sides.count, differs)) return;
+/// Takes in one more side of a corner, if it is another one.
+void add_side(const PadPlane& side, OtherSides& sides) {
+  if (sides.count == sides.planes.size()) return;
+  for (const PadPlane& other : sides.seen()) {
+    if (!are_two_sides(side, other)) return;
+  }
   sides.planes[sides.count++] = side;
 }
 
@@ -141,11 +142,11 @@ void add_side(const PadPlane& side, PadMemory& known) {
 /// and those that it knew. Gives whether one of the first two is among them.
 bool find_corner(const std::optional<PadPlane>& wall, const std::optional<PadPlane>& before,
                  const OtherSides& beside, double way_m, PadMemory& known) {
-  if (wall && stands_out(*wall, *known.plane)) add_side(*wall, known);
-  if (before && is_in_corner(*before, *known.plane, way_m)) add_side(*before, known);
+  if (wall && stands_out(*wall, *known.plane)) add_side(*wall, known.beside);
+  if (before && is_in_corner(*before, *known.plane, way_m)) add_side(*before, known.beside);
   const bool is_new = known.beside.count > 0;
-  for (std::size_t i = 0; i < beside.count; ++i) {
-    if (is_in_corner(beside.planes[i], *known.plane, way_m)) add_side(beside.planes[i], known);
+  for (const PadPlane& side : beside.seen()) {
+    if (is_in_corner(side, *known.plane, way_m)) add_side(side, known.beside);
   }
   return is_new;
 }

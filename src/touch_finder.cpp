@@ -267,9 +267,7 @@ double add_pad(const TouchSearch& search, const Landing& landing, const NearPad&
     return add_skin(search, landing, near, plane, curvature, posed, patches, rows);
   };
   double lowest_m = add(bent_plane(known, near.middle), known.curvature);
-  for (std::size_t i = 0; i < known.beside.count; ++i) {
-    lowest_m = std::min(lowest_m, add(known.beside.planes[i], 0.0));
-  }
+  for (const PadPlane& side : known.beside.seen()) lowest_m = std::min(lowest_m, add(side, 0.0));
   return lowest_m;
 }
 

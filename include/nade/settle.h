@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "nade/contact.h"
@@ -39,6 +40,8 @@ struct PadPlane {
 struct OtherSides {
   std::array<PadPlane, 2> planes;
   std::size_t count = 0;
+
+  [[nodiscard]] std::span<const PadPlane> seen() const noexcept { return {planes.data(), count}; }
 };
 
 /// What is remembered of a pad.
