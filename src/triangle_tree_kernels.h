@@ -119,6 +119,13 @@ inline BoxHits enter_boxes(const TreeNode& node, const Ray8& ray, float bound) {
   return {entry, bits8(less_equal8(entry, exit))};
 }
 
+/// The first lane that holds a value or less, which one of them does. With the lowest of them that
+/// costs no branch for each lane; which is lower than those before it is a coin toss.
+inline std::uint32_t lane_of(float value, Float8 values) {
+  const unsigned lanes = bits8(less_equal8(values, all8(value)));
+  return static_cast<std::uint32_t>(__builtin_ctz(lanes));
+}
+
 inline void hit_block(const TriangleBlock* blocks, std::uint32_t index, const Ray8& ray,
                       TreeHit& best) {
   const TriangleBlock& block = blocks[index];
@@ -141,16 +148,10 @@ inline void hit_block(const TriangleBlock* blocks, std::uint32_t index, const Ra
   const Float8 distance = dot8(a, normal) / dot8(normal, ray.direction);
   const Float8 hits =
       and8(inside, and8(less_equal8(zero, distance), less8(distance, all8(best.distance))));
-  unsigned lanes = bits8(hits);
-  if (lanes == 0) return;
-  float distances[kTreeWidth];
-  store8(distances, distance);
-  for (; lanes != 0; lanes &= lanes - 1) {
-    const int lane = __builtin_ctz(lanes);
-    if (distances[lane] < best.distance) {
-      best = {index * kTreeWidth + static_cast<std::uint32_t>(lane), distances[lane]};
-    }
-  }
+  if (bits8(hits) == 0) return;
+  const Float8 distances = select8(hits, distance, all8(kInfinity));
+  const float nearest = lowest8(distances);
+  best = {index * kTreeWidth + lane_of(nearest, distances), nearest};
 }
 
 TreeHit first_hit_kernel(const TreeNode* nodes, const TriangleBlock* blocks,
@@ -210,9 +211,7 @@ inline void nearest_in_block(const TriangleBlock* blocks, std::uint32_t index, c
       min8(segment_squared(pa, ab), min8(segment_squared(pb, bc), segment_squared(pc, ca)));
   const Float8 squared = select8(above, to_plane, to_edges);
   const float lowest = lowest8(squared);
-  if (!(lowest < best.squared)) return;
-  const int lane = __builtin_ctz(bits8(less_equal8(squared, all8(lowest))));
-  best = {lowest, index * kTreeWidth + static_cast<std::uint32_t>(lane)};
+  if (lowest < best.squared) best = {lowest, index * kTreeWidth + lane_of(lowest, squared)};
 }
 
 inline Float8 box_squared(const TreeNode& node, const Vec8& point) {
