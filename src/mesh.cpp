@@ -191,12 +191,11 @@ struct MeshSurface::Impl {
     const std::optional<Vec3> around = pseudonormal(slot, nearest, face);
     if (!around) return result;
     if (around->dot(seen_from - nearest.point) < 0.0) result.signed_distance = -distance;
+    if (nearest.feature == Feature::face) return result;
     // On a crease the normal is nobody's own: which of its faces was found is an accident.
     constexpr double kOffCosine = 0.966;
     const Vec3 unit = around->stableNormalized();
-    if (nearest.feature != Feature::face && unit.dot(result.normal) < kOffCosine) {
-      if (!unit.isZero()) result.normal = unit;
-    }
+    if (unit.dot(result.normal) < kOffCosine && !unit.isZero()) result.normal = unit;
     return result;
   }
 };

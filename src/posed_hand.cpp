@@ -105,9 +105,13 @@ PosedHand pose_hand(const HandModel& model, const Correction& correction) noexce
     chain.parent_rotation = (correction.palm.turn * chain.parent_rotation).normalized();
     const DigitAngles angles =
         with_freedoms(chain.angles, freedoms_of(chain.angles) + correction.bend[d]);
-    posed.axes[d] = chain_axes(chain, angles);
-    if (!correction.bend[d].isZero(0.0))
-      set_digit(posed.hand, chain.digit, pose_chain(chain, angles));
+    if (correction.bend[d].isZero(0.0)) {
+      posed.axes[d] = chain_axes(chain, angles);
+      continue;
+    }
+    const PosedDigit digit = pose_with_axes(chain, angles);
+    posed.axes[d] = digit.axes;
+    set_digit(posed.hand, chain.digit, digit.joints);
   }
   posed.flesh = pose_flesh(posed.hand, model.scale);
   return posed;

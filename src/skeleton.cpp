@@ -54,6 +54,41 @@ Quat relaxed_thumb(Handedness side) {
   return Quat(0.72160, 0.07775, sign * 0.38106, sign * 0.57275).normalized();
 }
 
+/// Where a digit's last bone ends, and how it lies.
+struct BoneEnd {
+  Vec3 position;
+  Quat frame;
+};
+
+/// Goes along a digit that is bent to `angles`: `take` gets each hinge, the frame of the bone
+/// before it, where it is, and the frame of its own bone.
+template <class Take>
+BoneEnd go_along(const DigitChain& chain, const DigitAngles& angles, Take take) {
+  const double sign = side_sign(chain.side);
+  BoneEnd end{chain.base, chain.parent_rotation};
+  for (std::size_t i = 0; i < kHingeCount; ++i) {
+    const Quat frame = end.frame * rotation_of(angles[i], sign);
+    take(i, end.frame, end.position, frame);
+    end = {end.position + frame * chain.bone[i], frame};
+  }
+  return end;
+}
+
+Pose joint_on(const DigitChain& chain, std::size_t i, const Vec3& position, const Quat& frame) {
+  return {position, (frame * chain.joint_from_bone[i]).normalized()};
+}
+
+/// Of one hinge, the first of which has two.
+void add_axes(const DigitChain& chain, const DigitAngles& angles, std::size_t hinge,
+              const Quat& parent, const Vec3& position, DigitAxes& axes) {
+  const std::size_t flexion = hinge + 1;
+  axes.axis[flexion] = parent * -Vec3::UnitX();
+  axes.center[flexion] = position;
+  if (hinge != 0) return;
+  axes.axis[0] = parent * (turn_x(-angles[0].flexion) * (side_sign(chain.side) * Vec3::UnitY()));
+  axes.center[0] = position;
+}
+
 }  // namespace
 
 HingeRange range_of_motion(Digit digit, std::size_t hinge) noexcept {
@@ -113,37 +148,35 @@ HandAngles measure_angles(const HandPose& hand) noexcept {
 }
 
 DigitPose pose_chain(const DigitChain& chain, const DigitAngles& angles) noexcept {
-  const double sign = side_sign(chain.side);
   DigitPose pose;
-  Vec3 position = chain.base;
-  Quat frame = chain.parent_rotation;
-  for (std::size_t i = 0; i < kHingeCount; ++i) {
-    frame = frame * rotation_of(angles[i], sign);
-    pose[i] = {position, (frame * chain.joint_from_bone[i]).normalized()};
-    position += frame * chain.bone[i];
-  }
-  pose[kHingeCount] = {position, (frame * chain.joint_from_bone[kHingeCount]).normalized()};
+  const auto take = [&](std::size_t i, const Quat&, const Vec3& position, const Quat& frame) {
+    pose[i] = joint_on(chain, i, position, frame);
+  };
+  const BoneEnd end = go_along(chain, angles, take);
+  pose[kHingeCount] = joint_on(chain, kHingeCount, end.position, end.frame);
   return pose;
 }
 
 DigitAxes chain_axes(const DigitChain& chain, const DigitAngles& angles) noexcept {
-  const double sign = side_sign(chain.side);
   DigitAxes axes;
-  Vec3 position = chain.base;
-  Quat frame = chain.parent_rotation;
-  for (std::size_t i = 0; i < kHingeCount; ++i) {
-    const std::size_t flexion = i + 1;
-    axes.axis[flexion] = frame * -Vec3::UnitX();
-    axes.center[flexion] = position;
-    if (i == 0) {
-      axes.axis[0] = frame * (turn_x(-angles[0].flexion) * (sign * Vec3::UnitY()));
-      axes.center[0] = position;
-    }
-    frame = frame * rotation_of(angles[i], sign);
-    position += frame * chain.bone[i];
-  }
-  axes.tip = position;
+  const auto take = [&](std::size_t i, const Quat& parent, const Vec3& position, const Quat&) {
+    add_axes(chain, angles, i, parent, position, axes);
+  };
+  axes.tip = go_along(chain, angles, take).position;
   return axes;
+}
+
+PosedDigit pose_with_axes(const DigitChain& chain, const DigitAngles& angles) noexcept {
+  PosedDigit posed;
+  const auto take = [&](std::size_t i, const Quat& parent, const Vec3& position,
+                        const Quat& frame) {
+    add_axes(chain, angles, i, parent, position, posed.axes);
+    posed.joints[i] = joint_on(chain, i, position, frame);
+  };
+  const BoneEnd end = go_along(chain, angles, take);
+  posed.axes.tip = end.position;
+  posed.joints[kHingeCount] = joint_on(chain, kHingeCount, end.position, end.frame);
+  return posed;
 }
 
 DigitAngles turned_whole(const DigitChain& chain, const Quat& turn_world) noexcept {

@@ -86,6 +86,14 @@ struct DigitAxes {
 };
 [[nodiscard]] DigitAxes chain_axes(const DigitChain& chain, const DigitAngles& angles) noexcept;
 
+/// Both at once.
+struct PosedDigit {
+  DigitPose joints;
+  DigitAxes axes;
+};
+[[nodiscard]] PosedDigit pose_with_axes(const DigitChain& chain,
+                                        const DigitAngles& angles) noexcept;
+
 /// The chain's angles with the digit turned as a whole about its base by a world rotation.
 [[nodiscard]] DigitAngles turned_whole(const DigitChain& chain, const Quat& turn_world) noexcept;
 
