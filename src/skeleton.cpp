@@ -12,17 +12,23 @@ namespace {
 constexpr double kShortestBone_m = 1e-5;
 
 Quat turn_x(double angle) { return {std::cos(0.5 * angle), std::sin(0.5 * angle), 0.0, 0.0}; }
-Quat turn_y(double angle) { return {std::cos(0.5 * angle), 0.0, std::sin(0.5 * angle), 0.0}; }
-Quat turn_z(double angle) { return {std::cos(0.5 * angle), 0.0, 0.0, std::sin(0.5 * angle)}; }
 
 /// Abduction and twist change sign in the mirror; flexion does not.
 double side_sign(Handedness side) { return side == Handedness::right ? 1.0 : -1.0; }
 
+/// Rx(-flexion) Ry(abduction) Rz(twist), multiplied out.
 Quat rotation_of(const HingeAngles& angles, double sign) {
-  return turn_x(-angles.flexion) * turn_y(sign * angles.abduction) * turn_z(sign * angles.twist);
+  const double cx = std::cos(-0.5 * angles.flexion);
+  const double sx = std::sin(-0.5 * angles.flexion);
+  const double cy = std::cos(0.5 * sign * angles.abduction);
+  const double sy = std::sin(0.5 * sign * angles.abduction);
+  const double cz = std::cos(0.5 * sign * angles.twist);
+  const double sz = std::sin(0.5 * sign * angles.twist);
+  return {cx * cy * cz - sx * sy * sz, sx * cy * cz + cx * sy * sz, cx * sy * cz - sx * cy * sz,
+          cx * cy * sz + sx * sy * cz};
 }
 
-/// The inverse of `rotation_of`: R = Rx(-flexion) Ry(abduction) Rz(twist).
+/// The inverse of `rotation_of`.
 HingeAngles angles_of(const Quat& rotation, double sign) {
   const Eigen::Matrix3d r = rotation.toRotationMatrix();
   HingeAngles angles;
