@@ -34,7 +34,8 @@ void forget_frame(SettleMemory& memory) noexcept {
   memory.geometric.setZero();
   memory.velocity.fill(Vec3::Zero());
   memory.joints.fill(Vec3::Zero());
-  memory.travel_m = memory.way_m = memory.height_m = memory.nearest_m = memory.deepest_m = 0.0;
+  memory.travel_m = memory.way_m = memory.rest = memory.height_m = memory.nearest_m =
+      memory.deepest_m = 0.0;
   memory.under_palm = memory.under_hand = memory.under_nearest = {};
   memory.pads.assign(memory.pads.size(), {});
   break_motion(memory.unrest);

@@ -21,6 +21,7 @@ using test::kFrame_ns;
 using test::lowest_skin;
 using test::plane;
 using test::pressed_hand;
+using test::rad;
 using test::settling;
 
 /// How far a joint is from halfway between where it was and where it will be.
@@ -282,6 +283,29 @@ TEST(SettleMotion, AHandRestsAlikeAtAnyFrameRate) {
   const HandPose usual = rested(90);
   for (const int rate_hz : {30, 240, 500}) {
     EXPECT_LT(largest_motion(usual, rested(rate_hz)), 0.001) << rate_hz << " frames a second";
+  }
+}
+
+/// The fingers of a hand that came down and rests are not seen to sink on for seconds.
+TEST(SettleMotion, FingersLieSoonAfterTheHandRests) {
+  struct Press {
+    double depth_m;
+    double tilt_rad;
+    double later_s;
+    double farthest_m;
+  };
+  for (const Press& press : {Press{0.01, 0.0, 0.6, 0.0015}, Press{0.02, rad(20), 1.0, 0.0035}}) {
+    HandCorrector corrector(settling());
+    const int down = 60;
+    HandPose later;
+    HandPose drawn;
+    for (int i = 0; i < down + 5 * 90; ++i) {
+      const double share = std::min(1.0, static_cast<double>(i) / down);
+      const HandPose tracked = pressed_hand(-0.08 + share * (0.08 + press.depth_m), press.tilt_rad);
+      drawn = corrector.update(tracked, plane(), i * kFrame_ns).pose;
+      if (i == down + std::lround(90.0 * press.later_s)) later = drawn;
+    }
+    EXPECT_LT(largest_motion(later, drawn), press.farthest_m) << press.depth_m << " m deep";
   }
 }
 
