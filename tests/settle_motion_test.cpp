@@ -19,6 +19,7 @@ using test::ball;
 using test::gripping_hand;
 using test::kFrame_ns;
 using test::lowest_skin;
+using test::on_the_way_down;
 using test::plane;
 using test::pressed_hand;
 using test::rad;
@@ -300,8 +301,7 @@ TEST(SettleMotion, FingersLieSoonAfterTheHandRests) {
     HandPose later;
     HandPose drawn;
     for (int i = 0; i < down + 5 * 90; ++i) {
-      const double share = std::min(1.0, static_cast<double>(i) / down);
-      const HandPose tracked = pressed_hand(-0.08 + share * (0.08 + press.depth_m), press.tilt_rad);
+      const HandPose tracked = on_the_way_down(i, down, press.depth_m, press.tilt_rad);
       drawn = corrector.update(tracked, plane(), i * kFrame_ns).pose;
       if (i == down + std::lround(90.0 * press.later_s)) later = drawn;
     }

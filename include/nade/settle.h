@@ -167,8 +167,8 @@ struct SettleMemory {
   JointVectors drift{};     ///< velocity of the drawn joints over the tracked, m/s
   JointVectors joints{};    ///< of the hand as looked at last
   double travel_m = 0.0;    ///< the sum of what its farthest joint went from look to look
-  double rest = 0.0;        ///< how still the tracked hand has kept of late, 1 at rest
   double way_m = 0.0;       ///< and of what the tracked hand's went from frame to frame
+  double rest = 0.0;        ///< how still the tracked hand has kept of late, 1 at rest
 };
 
 /// A memory with room for a hand's pads; settle_hand allocates nothing then.
