@@ -25,27 +25,6 @@ namespace {
 constexpr double kRowReach_m = 0.0009;
 constexpr double kRowReachOfMotion = 0.33;
 
-// How fast a correction may change where nothing pushes: so many times the tracked hand's own
-// motion, and a little more, so that a hand at rest is released as well.
-constexpr double kShiftRate = 2.0;
-constexpr double kTurnRate = 1.0135;
-constexpr double kBendRate = 0.646;
-constexpr double kFreeRate_mps = 0.0030187;
-/// A hand keeps still the more the slower than this it goes.
-constexpr double kAtRest_mps = 0.015;
-/// Bends go as fast as this at least, the faster the longer the tracked hand keeps still: fingers
-/// are not to be seen to sink on long after the person's hand rests. Turns go half as fast.
-constexpr double kLeastRate_mps = 0.01;
-constexpr double kLeastRateAtRest_mps = 0.03;
-constexpr double kRestTime_s = 0.2;
-constexpr double kLeastTurn = 0.5;
-// In the air nothing is in the way: what is left of a correction goes by up to so many times the
-// tracked hand's motion, or so fast. Where that hand keeps still, what is large goes in about
-// `kCatchUpTime_s`.
-constexpr double kWayInAir = 1.4;
-constexpr double kRateInAir_mps = 0.03;
-constexpr double kCatchUpTime_s = 0.5;
-constexpr double kFastestAtRest_mps = 0.12;
 /// What is let go comes back as fast as it likes.
 constexpr double kAnyWay_m = 10.0;
 constexpr double kWallStiffness = 1e5;
@@ -134,14 +113,6 @@ class Settling {
   [[nodiscard]] bool is_in_air() const {
     return !fresh_ && (memory_.push.isZero() || memory_.held_up());
   }
-  /// How still the tracked hand keeps: 1 at rest.
-  [[nodiscard]] double rest() const {
-    return 1.0 - smoothstep(0.0, kAtRest_mps, motion_m_ / seconds_);
-  }
-  /// How far bends may always go on the surface.
-  [[nodiscard]] double least_way() const {
-    return seconds_ * (kLeastRate_mps + memory_.rest * (kLeastRateAtRest_mps - kLeastRate_mps));
-  }
   [[nodiscard]] double farthest_way() const;
   [[nodiscard]] bool is_in_contact() const;
   void find_push(const Vec3& force);
@@ -178,8 +149,7 @@ void Settling::find_motion() {
   if (!last.tracked) return;
   motion_m_ = largest_motion(*last.tracked, model_.tracked);
   memory_.way_m += motion_m_;
-  const double rested = memory_.rest + followed(seconds_, kRestTime_s) * (1.0 - memory_.rest);
-  memory_.rest = std::min(rest(), rested);
+  follow_rest(motion_m_, seconds_, memory_.rest);
   const double follow = memory_.fresh ? 1.0 : followed(seconds_, kVelocityTime_s);
   follow_velocity(*last.tracked, model_.tracked, seconds_, follow, memory_.velocity);
 }
@@ -283,29 +253,19 @@ SettleProblem Settling::problem_at(const PosedHand& posed, int round) const {
     problem.rate.low = -problem.rate.high;
     return problem;
   }
-  const double slack_m = kFreeRate_mps * seconds_;
-  const HandFreedoms rate =
-      in_air ? steps_of(farthest_m_, farthest_m_, farthest_m_)
-             : steps_of(kShiftRate * motion_m_ + slack_m,
-                        std::max(kTurnRate * motion_m_ + slack_m, kLeastTurn * least_way()),
-                        std::max(kBendRate * motion_m_ + slack_m, least_way()));
+  const HandFreedoms rate = in_air ? steps_of(farthest_m_, farthest_m_, farthest_m_)
+                                   : steps_on_surface(motion_m_, memory_.rest, seconds_);
   problem.rate.low = -rate - changed;
   problem.rate.high = rate - changed;
   return problem;
 }
 
-/// How far a joint goes in the frame at the most: on the surface as far as the tracked hand's
-/// fastest, and a little.
+/// How far a joint goes in the frame at the most.
 double Settling::farthest_way() const {
   if (memory_.let_go) return kAnyWay_m;
-  if (!is_in_air()) {
-    return std::max(motion_m_ + kFreeRate_mps * seconds_, least_way());
-  }
+  if (!is_in_air()) return way_on_surface(motion_m_, memory_.rest, seconds_);
   const double away_m = reach_of(step_between({}, memory_.last.correction, search_.frame));
-  const double at_rest_mps =
-      std::clamp(away_m / kCatchUpTime_s, kRateInAir_mps, kFastestAtRest_mps);
-  const double rate_mps = kRateInAir_mps + rest() * (at_rest_mps - kRateInAir_mps);
-  return std::max(kWayInAir * motion_m_, rate_mps * seconds_);
+  return way_in_air(motion_m_, away_m, seconds_);
 }
 
 /// Whether the drawn hand touches, or the person is in the object near where it hovers for a

@@ -1,9 +1,35 @@
 #include "settle_pace.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "ramps.h"
+#include "settle_step.h"
 
 namespace nade {
 namespace {
+
+// How fast a correction may change where nothing pushes: so many times the tracked hand's own
+// motion, and a little more, so that a hand at rest is released as well.
+constexpr double kShiftRate = 2.0;
+constexpr double kTurnRate = 1.0135;
+constexpr double kBendRate = 0.646;
+constexpr double kFreeRate_mps = 0.0030187;
+/// A hand keeps still the more the slower than this it goes.
+constexpr double kAtRest_mps = 0.015;
+/// Bends go as fast as this at least, the faster the longer the tracked hand keeps still: fingers
+/// are not to be seen to sink on long after the person's hand rests. Turns go half as fast.
+constexpr double kLeastRate_mps = 0.01;
+constexpr double kLeastRateAtRest_mps = 0.03;
+constexpr double kRestTime_s = 0.2;
+constexpr double kLeastTurn = 0.5;
+// In the air nothing is in the way: what is left of a correction goes by up to so many times the
+// tracked hand's motion, or so fast. Where that hand keeps still, what is large goes in about
+// `kCatchUpTime_s`.
+constexpr double kWayInAir = 1.4;
+constexpr double kRateInAir_mps = 0.03;
+constexpr double kCatchUpTime_s = 0.5;
+constexpr double kFastestAtRest_mps = 0.12;
 
 constexpr double kHoldStiffness = 1.5e5;
 /// The time constant with which a drawn joint takes on the tracked one's velocity.
@@ -14,7 +40,42 @@ Vec3 offset_of(const SettledFrame& frame, std::size_t joint) {
   return frame.drawn.joints[joint].position - frame.tracked->joints[joint].position;
 }
 
+/// How still a hand keeps that goes so far in a frame: 1 at rest.
+double rest_of(double motion_m, double seconds) {
+  return 1.0 - smoothstep(0.0, kAtRest_mps, motion_m / seconds);
+}
+
+/// How far bends may always go on the surface.
+double least_way(double rest, double seconds) {
+  return seconds * (kLeastRate_mps + rest * (kLeastRateAtRest_mps - kLeastRate_mps));
+}
+
 }  // namespace
+
+void follow_rest(double motion_m, double seconds, double& rest) noexcept {
+  const double rested = rest + followed(seconds, kRestTime_s) * (1.0 - rest);
+  rest = std::min(rest_of(motion_m, seconds), rested);
+}
+
+HandFreedoms steps_on_surface(double motion_m, double rest, double seconds) noexcept {
+  const double slack_m = kFreeRate_mps * seconds;
+  const double least_m = least_way(rest, seconds);
+  return steps_of(kShiftRate * motion_m + slack_m,
+                  std::max(kTurnRate * motion_m + slack_m, kLeastTurn * least_m),
+                  std::max(kBendRate * motion_m + slack_m, least_m));
+}
+
+double way_on_surface(double motion_m, double rest, double seconds) noexcept {
+  return std::max(motion_m + kFreeRate_mps * seconds, least_way(rest, seconds));
+}
+
+double way_in_air(double motion_m, double away_m, double seconds) noexcept {
+  const double at_rest_mps =
+      std::clamp(away_m / kCatchUpTime_s, kRateInAir_mps, kFastestAtRest_mps);
+  const double rest = rest_of(motion_m, seconds);
+  const double rate_mps = kRateInAir_mps + rest * (at_rest_mps - kRateInAir_mps);
+  return std::max(kWayInAir * motion_m, rate_mps * seconds);
+}
 
 void follow_velocity(const HandPose& from, const HandPose& to, double seconds, double share,
                      JointVectors& velocity) noexcept {

@@ -11,6 +11,19 @@ namespace nade {
 
 // How fast a hand goes from frame to frame.
 
+/// Takes a frame, in which the tracked hand went so far, into how still it has kept of late: from 0
+/// to 1, at rest.
+void follow_rest(double motion_m, double seconds, double& rest) noexcept;
+
+/// How far a correction may change in a frame where nothing pushes, on the surface.
+[[nodiscard]] HandFreedoms steps_on_surface(double motion_m, double rest, double seconds) noexcept;
+
+/// How far a joint of the drawn hand goes in a frame at the most: on the surface as far as the
+/// tracked hand's fastest, and a little; in the air farther, the farther it is from the tracked one
+/// if that keeps still.
+[[nodiscard]] double way_on_surface(double motion_m, double rest, double seconds) noexcept;
+[[nodiscard]] double way_in_air(double motion_m, double away_m, double seconds) noexcept;
+
 /// Takes a share of each joint's velocity from one pose to the next into a smoothed one, m/s.
 void follow_velocity(const HandPose& from, const HandPose& to, double seconds, double share,
                      JointVectors& velocity) noexcept;
