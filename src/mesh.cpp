@@ -177,25 +177,34 @@ struct MeshSurface::Impl {
     return sum;
   }
 
+  /// `around` is the pseudonormal at `nearest`.
+  [[nodiscard]] bool is_inside(const Vec3& from, const Vec3& nearest,
+                               const std::optional<Vec3>& around) const {
+    if (topology.sign != detail::SignRule::winding) {
+      return around && around->dot(from - nearest) < 0.0;
+    }
+    const Eigen::Vector3f at = from.cast<float>();
+    return tree.winding({at.x(), at.y(), at.z()}) > 0.5F;
+  }
+
   [[nodiscard]] SurfacePoint point_at(const Vec3& query, const Vec3& seen_from, std::uint32_t slot,
                                       const SlotTriangle& triangle,
                                       const TrianglePoint& nearest) const {
     const Vec3 face = face_normal(triangle.corners);
     const double distance = length(query - nearest.point);
     SurfacePoint result{nearest.point, shading_normal(triangle, nearest.weights), distance};
-    if (topology.sign == detail::SignRule::winding) {
-      const Eigen::Vector3f at = seen_from.cast<float>();
-      if (tree.winding({at.x(), at.y(), at.z()}) > 0.5F) result.signed_distance = -distance;
-      return result;
-    }
     const std::optional<Vec3> around = pseudonormal(slot, nearest, face);
-    if (!around) return result;
-    if (around->dot(seen_from - nearest.point) < 0.0) result.signed_distance = -distance;
-    if (nearest.feature == Feature::face) return result;
-    // On a crease the normal is nobody's own: which of its faces was found is an accident.
-    constexpr double kOffCosine = 0.966;
-    const Vec3 unit = around->stableNormalized();
-    if (unit.dot(result.normal) < kOffCosine && !unit.isZero()) result.normal = unit;
+    if (around && nearest.feature != Feature::face) {
+      // On a crease the normal is nobody's own: which of its faces was found is an accident. Faces
+      // that cancel out say nothing.
+      constexpr double kOffCosine = 0.966;
+      constexpr double kCancelled = 0.01;
+      const double norm = around->norm();
+      if (norm > kCancelled && around->dot(result.normal) < kOffCosine * norm) {
+        result.normal = *around / norm;
+      }
+    }
+    if (is_inside(seen_from, nearest.point, around)) result.signed_distance = -distance;
     return result;
   }
 };

@@ -192,12 +192,20 @@ TEST(Mesh, CreasesStaySharp) {
 }
 
 TEST(Mesh, OnACreaseTheNormalIsBetweenTheFaces) {
-  const auto mesh = build(test::box_mesh({0.1F, 0.1F, 0.1F}));
-  for (const double beyond : {0.001, 0.01, 0.05}) {
-    SurfaceHint hint;
-    const auto nearest = mesh->closest_point({0.1 + beyond, 0.12, 0.03}, 1.0, hint);
-    EXPECT_NEAR(nearest->normal.x(), std::sqrt(0.5), 1e-6);
-    EXPECT_NEAR(nearest->normal.y(), std::sqrt(0.5), 1e-6);
+  const TriangleSoup box = test::subdivided(test::box_mesh({0.1F, 0.1F, 0.1F}), 2);
+  TriangleSoup holed = box;  // far from that crease
+  holed.triangles.pop_back();
+  for (const TriangleSoup& soup : {box, holed}) {
+    const auto mesh = build(soup);
+    for (const double beyond : {0.001, 0.01, 0.05}) {
+      for (const Vec3& from : {Vec3(0.13, 0.09, 0.013), Vec3(0.09, 0.13, 0.013)}) {
+        SurfaceHint hint;
+        (void)mesh->closest_point(from, 1.0, hint);
+        const auto nearest = mesh->closest_point({0.1 + beyond, 0.12, 0.013}, 1.0, hint);
+        EXPECT_NEAR(nearest->normal.x(), std::sqrt(0.5), 1e-6);
+        EXPECT_NEAR(nearest->normal.y(), std::sqrt(0.5), 1e-6);
+      }
+    }
   }
 }
 
