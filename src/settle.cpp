@@ -25,8 +25,6 @@ namespace {
 constexpr double kRowReach_m = 0.0009;
 constexpr double kRowReachOfMotion = 0.33;
 
-/// What is let go comes back as fast as it likes.
-constexpr double kAnyWay_m = 10.0;
 constexpr double kWallStiffness = 1e5;
 /// A joint's mass: a spring of this over the square of the frame's seconds keeps it going. Less in
 /// the air, where the hand comes back to the tracked one.
@@ -51,6 +49,8 @@ constexpr double kSettled_m = 0.0004;
 /// factor, and the last is a small one.
 constexpr double kShorterSteps = 0.85;
 constexpr double kFirstSettled_m = 1e-6;
+/// Where the person presses again, what was let go is back no later than after this.
+constexpr double kReturnToTouch_s = 0.25;
 /// In the air, a correction smaller than this is over.
 constexpr double kReleased_m = 0.0001;
 constexpr double kLongestTurn_rad = 0.3;
@@ -106,18 +106,20 @@ class Settling {
  private:
   void start();
   void find_motion();
+  void find_whether_let_go();
   void start_outside();
   void find_strengths();
   [[nodiscard]] Correction after(const HandFreedoms& step) const;
   [[nodiscard]] SettleProblem problem_at(const PosedHand& posed, int round) const;
   [[nodiscard]] bool is_in_air() const {
-    return !fresh_ && (memory_.push.isZero() || memory_.held_up());
+    return !fresh_ && (memory_.push.isZero() || memory_.held_up);
   }
   [[nodiscard]] double farthest_way() const;
   [[nodiscard]] bool is_in_contact() const;
   void find_push(const Vec3& force);
   void remember_contact();
   void remember_frame(const HandPose& drawn);
+  [[nodiscard]] HandPose on_its_way_back(const HandPose& settled);
   SettledHand finish(const HandPose& posed);
 
   const ScaledSurface& object_;
@@ -130,7 +132,8 @@ class Settling {
   double seconds_;       ///< as it counts
 
   bool fresh_ = false;
-  double motion_m_ = 0.0;  ///< of the tracked hand since the last frame
+  std::optional<Correction> let_go_from_;  ///< that it had when it was let go in this frame
+  double motion_m_ = 0.0;                  ///< of the tracked hand since the last frame
   /// No joint goes farther in the frame unless the object pushes or pulls harder than this holds
   /// it back.
   double farthest_m_ = 0.0;
@@ -154,18 +157,26 @@ void Settling::find_motion() {
   follow_velocity(*last.tracked, model_.tracked, seconds_, follow, memory_.velocity);
 }
 
+void Settling::find_whether_let_go() {
+  const double away_m = largest_motion(memory_.last.drawn, *memory_.last.tracked);
+  if (!follow_leaving(search_, away_m, memory_)) return;
+  let_go_from_ = memory_.last.correction;
+  fresh_ = true;
+}
+
 void Settling::start() {
   const HandPose& tracked = model_.tracked;
   find_motion();
   const double growth = std::abs(object_.scale() / memory_.scale - 1.0);
   const double grown_m = growth * tracked[Joint::palm].position.norm();
+  search_.seconds = seconds_;
   fresh_ = !memory_.last.tracked || motion_m_ + grown_m > kTeleport_m;
+  if (!fresh_) find_whether_let_go();
   if (fresh_) {
     forget_frame(memory_);
   } else if (object_.scale() != memory_.scale || object_.surface().shape() != memory_.shape) {
     forget_planes(memory_);
   }
-  search_.seconds = seconds_;
   search_.nearest_m = memory_.nearest_m;
   search_.deepest_m = memory_.deepest_m;
   search_.sink_m = options_.softness_m * followed(memory_.height_m, options_.softness_depth_m);
@@ -176,7 +187,6 @@ void Settling::start() {
   search_.push = push_;
   normal_ = normal_under_palm(object_, tracked[Joint::palm], push_, motion_m_, seconds_, memory_);
   search_.frame = surface_frame(normal_, tracked[Joint::palm].rotation);
-  if (!fresh_) follow_leaving(search_, memory_);
   find_strengths();
   correction_ = after(HandFreedoms::Zero());  // into the range of this frame's pose
   last_ = correction_;
@@ -197,7 +207,7 @@ void Settling::find_strengths() {
   const FingerCurls curls = curls_of(model_);
   if (memory_.push.isZero()) memory_.curl_at_touch = curls;
   search_.strengths = pull_strengths(memory_.unrest, curls, memory_.curl_at_touch);
-  search_.pulls = !memory_.held_up();
+  search_.pulls = !memory_.held_up;
   // On a hand found anew no pull has to come first.
   search_.pulls_before = fresh_ ? search_.strengths : memory_.pulls;
 }
@@ -223,8 +233,7 @@ SettleProblem Settling::problem_at(const PosedHand& posed, int round) const {
   HandFreedoms away = step_between({}, correction_, search_.frame);
   away.head<3>() -= search_.frame.transpose() * (memory_.carried + memory_.drawn_lag);
   const bool in_air = is_in_air();
-  const HandFreedoms slack = memory_.let_go ? HandFreedoms::Zero() : away;
-  problem.springs.add(in_air ? stiffness_in_air(slack) : stiffness_of_pose(slack), -away);
+  problem.springs.add(in_air ? stiffness_in_air(away) : stiffness_of_pose(away), -away);
   // The forces on a hand found anew are not yet those that it will rest with.
   if (!fresh_) problem.springs.add(memory_.geometric, HandFreedoms::Zero());
 
@@ -262,7 +271,6 @@ SettleProblem Settling::problem_at(const PosedHand& posed, int round) const {
 
 /// How far a joint goes in the frame at the most.
 double Settling::farthest_way() const {
-  if (memory_.let_go) return kAnyWay_m;
   if (!is_in_air()) return way_on_surface(motion_m_, memory_.rest, seconds_);
   const double away_m = reach_of(step_between({}, memory_.last.correction, search_.frame));
   return way_in_air(motion_m_, away_m, seconds_);
@@ -289,7 +297,7 @@ void Settling::find_push(const Vec3& force) {
 }
 
 void Settling::remember_contact() {
-  if (push_.isZero() || memory_.normal.isZero() || memory_.held_up()) {
+  if (push_.isZero() || memory_.normal.isZero() || memory_.held_up) {
     forget_slide(memory_);
   } else {
     const Vec3& palm = model_.tracked[Joint::palm].position;
@@ -317,15 +325,32 @@ void Settling::remember_frame(const HandPose& drawn) {
   memory_.scale = object_.scale();
 }
 
+/// What the object let go is found anew at once, and drawn so a little later: it comes back through
+/// the object.
+HandPose Settling::on_its_way_back(const HandPose& settled) {
+  const Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();
+  if (let_go_from_) {
+    memory_.returning = step_between(correction_, *let_go_from_, frame);
+    memory_.return_share = 1.0;
+  }
+  if (memory_.return_share == 0.0) return settled;
+  const double way = way_of_return(motion_m_, seconds_) / reach_of(memory_.returning);
+  const double share = is_in_contact() ? std::max(way, seconds_ / kReturnToTouch_s) : way;
+  memory_.return_share = std::max(0.0, memory_.return_share - share);
+  const HandFreedoms left = memory_.return_share * memory_.returning;
+  return pose_hand(model_, after_step(correction_, left, frame, model_.ranges)).hand;
+}
+
 SettledHand Settling::finish(const HandPose& posed) {
   const double away_m = reach_of(step_between({}, correction_, search_.frame));
   if (!touches_ && away_m < kReleased_m) correction_ = {};
   SettledHand settled;
-  settled.hand = is_none(correction_) ? model_.tracked : posed;
+  const HandPose& hand = is_none(correction_) ? model_.tracked : posed;
   remember_contact();
-  remember_frame(settled.hand);
+  remember_frame(hand);
+  settled.hand = on_its_way_back(hand);
   settled.touches = is_in_contact();
-  settled.corrected = !is_none(correction_);
+  settled.corrected = !is_none(correction_) || memory_.return_share > 0.0;
   for (std::size_t i = 0; i < kPartCount; ++i) {
     const PatchTouch& part = patches_[i];
     if (!(part.depth_m > 0.0) || part.gap_m > kPullReach_m) continue;

@@ -28,14 +28,13 @@ void forget_frame(SettleMemory& memory) noexcept {
   memory.last = {};
   memory.push = memory.normal = Vec3::Zero();
   forget_slide(memory);
-  memory.clear_s.reset();
-  memory.let_go = false;
+  memory.held_up = false;
   memory.last_inside = 0;
   memory.geometric.setZero();
   memory.velocity.fill(Vec3::Zero());
   memory.joints.fill(Vec3::Zero());
   memory.travel_m = memory.way_m = memory.rest = memory.height_m = memory.nearest_m =
-      memory.deepest_m = 0.0;
+      memory.deepest_m = memory.clear_s = memory.stuck_s = memory.return_share = 0.0;
   memory.under_palm = memory.under_hand = memory.under_nearest = {};
   memory.pads.assign(memory.pads.size(), {});
   break_motion(memory.unrest);

@@ -305,7 +305,7 @@ void add_pulls(const TouchSearch& search, const PosedHand& posed, const PatchTou
     const PatchTouch& patch = patches[i];
     const bool nearest = i == kNearestSkin;
     const PullGrowth& growth = growth_of(i);
-    const bool pulled = search.pulls && patch.point;
+    const bool pulled = (search.pulls || nearest) && patch.point;
     memory.pulls[i] = pulled ? pull_strength(search, patch, growth, i) : 0.0;
     if (memory.pulls[i] == 0.0) continue;
     ContactRow& row =
@@ -341,10 +341,6 @@ PatchTouches find_touches(const TouchSearch& search, const PosedHand& posed,
   memory.rows.clear();
   count_travel(posed.flesh, memory);
   PatchTouches patches;
-  if (memory.let_go) {
-    memory.pulls.fill(0.0);
-    return patches;
-  }
   double fastest_mps = 0.0;
   for (const Vec3& velocity : search.velocity) {
     fastest_mps = std::max(fastest_mps, landing_part(search, velocity));

@@ -52,7 +52,7 @@ struct TouchSearch {
   double seconds = 0.0;          ///< since the last frame
   PullStrengths pulls_before{};  ///< `SettleMemory::pulls` of the last frame
   PullStrengths strengths{};
-  bool pulls = true;         ///< whether anything is drawn to the surface
+  bool pulls = true;         ///< whether more is drawn to the surface than what is nearest
   JointVectors velocity{};   ///< of the tracked joints, smoothed
   double speed_mps = 0.0;    ///< of the tracked hand's fastest joint
   double nearest_m = 0.0;    ///< `SettleMemory::nearest_m`

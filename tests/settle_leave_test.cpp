@@ -69,6 +69,35 @@ TEST(SettleLeave, AHandThatWentRightThroughComesBackInTheEnd) {
   EXPECT_LT(away_m.back(), 0.001);
 }
 
+/// As before, and then into the block's top, soon after it was let go: it was drawn 85 mm deep in
+/// it for two seconds, and jumped out of it by 76 mm.
+TEST(SettleLeave, AHandThatWasLetGoMayPressAgain) {
+  const auto surface = block({0.2F, 0.15F, 0.2F});
+  const Object object(*surface);
+  HandCorrector corrector(settling());
+  HandPose tracked = pressed_hand(0.06, 0.0, {0.32, 0.0, 0.0});
+  HandPose drawn = tracked;
+  int deep_frames = 0;
+  for (int i = 0; i < 450; ++i) {
+    const double lift_m = std::min(0.1, gone(i, 0.9) / 3.0);
+    const double press_m = 0.3 * std::min(0.3, gone(i, 2.7));
+    const HandPose next = pressed_hand(0.06 - lift_m + press_m, 0.0,
+                                       {0.32 - 0.5 * std::min(0.6, gone(i, 0.2)), 0.0, 0.0});
+    const HandPose out = corrector.update(next, object, i * kFrame_ns).pose;
+    const double way_m = largest_motion(drawn, out);
+    const bool pressed = lowest_skin(next, object) < 0.0;
+    if (i < 243) {  // until then in the air, or in at the side
+      EXPECT_LT(way_m, 0.002 + 3.0 * largest_motion(tracked, next)) << "frame " << i;
+    }
+    EXPECT_LT(way_m, 0.02) << "frame " << i;
+    tracked = next;
+    drawn = out;
+    if (pressed && lowest_skin(drawn, object) < -0.002) ++deep_frames;
+  }
+  EXPECT_LT(deep_frames, 27);
+  EXPECT_LT(std::abs(lowest_skin(drawn, object)), 0.001);
+}
+
 /// A thin board is no reason to be let go.
 TEST(SettleLeave, AHandPressedThroughABoardStaysOnTheSideItCameFrom) {
   const auto surface = block({0.2F, 0.005F, 0.2F});

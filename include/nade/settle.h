@@ -150,12 +150,12 @@ struct SettleMemory {
   Vec3 lag = Vec3::Zero();           ///< along the surface, by friction
   Vec3 drawn_lag = Vec3::Zero();     ///< the same, smoothed
   bool slips = false;
-  /// While the tracked hand is out of the object and the drawn one far from it: how long that has
-  /// been stuck; below 0 at first, when it may be on its way out.
-  std::optional<double> clear_s;
-  /// Whether the object holds up a hand that has left it.
-  [[nodiscard]] bool held_up() const { return clear_s && *clear_s >= 0.0; }
-  bool let_go = false;          ///< the drawn hand comes back through the object
+  double clear_s =
+      0.0;  ///< how long the tracked hand has been clear of the object, the drawn one far
+  bool held_up = false;  ///< whether the object holds up a hand that has left it
+  double stuck_s = 0.0;  ///< how long that has been stuck; the longer, the farther off it is
+  HandFreedoms returning = HandFreedoms::Zero();  ///< from where a hand that was let go comes back
+  double return_share = 0.0;                      ///< and how much of that is left, 1 to 0
   std::size_t last_inside = 0;  ///< the pad whose tracked skin was last found in the object
   Unrest unrest;
   FingerCurls curl_at_touch{};                    ///< of the tracked hand; in the air, now
