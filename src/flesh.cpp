@@ -17,6 +17,9 @@ constexpr double kWidest_m = 0.007;
 constexpr double kMiddleDepth_m = 0.005;
 /// A skin point sticks out if it is the farthest in one of so many directions.
 constexpr int kDirections = 24;
+/// A mesh with too many of them is thinned to vertices so far apart, or by this factor farther.
+constexpr double kFinest_m = 0.002;
+constexpr double kCoarser = 1.1;
 
 using Indices = std::vector<std::size_t>;
 using JointWeights = std::array<double, kJointCount>;
@@ -29,13 +32,18 @@ Vec3 normal_of(const HandMesh& mesh, std::size_t vertex) {
   return mesh.normals[vertex].cast<double>();
 }
 
-/// One vertex for each position.
-Indices distinct_vertices(const HandMesh& mesh) {
+/// Vertices no two of which are nearer than `apart_m`, or at the same place.
+Indices spread_vertices(const HandMesh& mesh, double apart_m) {
   std::map<std::array<float, 3>, std::size_t> seen;
   Indices result;
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const Eigen::Vector3f& v = mesh.vertices[i];
-    if (seen.emplace(std::array{v.x(), v.y(), v.z()}, i).second) result.push_back(i);
+    if (!seen.emplace(std::array{v.x(), v.y(), v.z()}, i).second) continue;
+    const bool crowded =
+        apart_m > 0.0 && std::any_of(result.begin(), result.end(), [&](std::size_t other) {
+          return (position_of(mesh, i) - position_of(mesh, other)).norm() < apart_m;
+        });
+    if (!crowded) result.push_back(i);
   }
   return result;
 }
@@ -141,9 +149,7 @@ void add_pad(const HandMesh& mesh, const Indices& vertices, std::optional<Part> 
   pad.count = static_cast<std::uint32_t>(flesh.skin.size()) - pad.first;
 }
 
-}  // namespace
-
-HandFlesh measure_flesh(const HandMesh& mesh) {
+HandFlesh cut(const HandMesh& mesh, const Indices& kept) {
   HandFlesh flesh;
   flesh.side = mesh.side;
   flesh.hand_length_m = hand_length(mesh.bind);
@@ -157,7 +163,7 @@ HandFlesh measure_flesh(const HandMesh& mesh) {
     }
   };
   std::map<Group, Indices> groups;
-  for (const std::size_t vertex : distinct_vertices(mesh)) {
+  for (const std::size_t vertex : kept) {
     const std::size_t joint = heaviest(weights_of(mesh, vertex));
     Group group{-1, static_cast<int>(joint), 0};
     if (const std::optional<Part> part = patch_of(mesh, depths, vertex)) {
@@ -173,6 +179,16 @@ HandFlesh measure_flesh(const HandMesh& mesh) {
     std::optional<Part> part;
     if (group.part >= 0) part = part_at(static_cast<std::size_t>(group.part));
     for (const Indices& piece : split(mesh, vertices)) add_pad(mesh, piece, part, flesh);
+  }
+  return flesh;
+}
+
+}  // namespace
+
+HandFlesh measure_flesh(const HandMesh& mesh) {
+  HandFlesh flesh = cut(mesh, spread_vertices(mesh, 0.0));
+  for (double apart_m = kFinest_m; flesh.skin.size() > kMostSkinPoints; apart_m *= kCoarser) {
+    flesh = cut(mesh, spread_vertices(mesh, apart_m));
   }
   return flesh;
 }

@@ -1,3 +1,4 @@
+#include "nade/assert.h"
 #include "nade/settle.h"
 #include "settle_slide.h"
 #include "settle_unrest.h"
@@ -6,6 +7,7 @@
 namespace nade {
 
 SettleMemory settle_memory(const HandFlesh& flesh) {
+  NADE_ASSERT(flesh.skin.size() <= kMostSkinPoints);
   SettleMemory memory;
   memory.pads.resize(flesh.pads.size());
   memory.rows.reserve(kMostContactRows);

@@ -4,16 +4,17 @@
 #include <limits>
 #include <optional>
 
+#include "nade/flesh.h"
 #include "nade/settle.h"
 #include "posed_hand.h"
 #include "settle_frame.h"
 
 namespace nade {
 
-/// Rows for skin beyond this many are left out: a hand found anew has one for every point. Then
-/// there are those that draw near, two for what is nearest, and what holds back the wrist and the
-/// digits.
-inline constexpr std::size_t kMostSkinRows = 1280;
+/// A hand found anew has a row for every skin point; those for a corner's other sides are left out
+/// where they would be more. Then there are those that draw near, two for what is nearest, and what
+/// holds back the wrist and the digits.
+inline constexpr std::size_t kMostSkinRows = kMostSkinPoints;
 inline constexpr std::size_t kMostContactRows = kMostSkinRows + kPulls + 1 + 1 + kDigitCount;
 
 /// A patch of skin, drawn and tracked, against the surface near it.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -35,9 +36,12 @@ struct HandFlesh {
   std::vector<FleshPoint> skin;
 };
 
+/// A hand has no more skin points than this: a frame looks at each of them.
+inline constexpr std::size_t kMostSkinPoints = 1280;
+
 /// Cuts a hand mesh into pads. A part's pads are the skin around the point where the part's
 /// palmar axis leaves the flesh, as the metric `part_gap` has it. Of each pad only the points that
-/// stick out are kept.
+/// stick out are kept; of a fine mesh, only vertices that lie far enough apart.
 [[nodiscard]] HandFlesh measure_flesh(const HandMesh& mesh);
 
 /// As `measure_flesh` gives for the generic hand, the left the mirror image of the right: for
