@@ -42,6 +42,7 @@ constexpr std::array<JointNames, kJointCount> kNames{{
 
 /// Longer than any hand, shorter than any tracking blunder worth stopping.
 constexpr double kLongestHand_m = 0.5;
+constexpr double kFarthest_m = 1e6;
 constexpr double kUnitTolerance = 1e-3;
 
 }  // namespace
@@ -71,6 +72,7 @@ std::optional<Joint> joint_from_webxr_name(std::string_view name) {
 
 bool is_usable(const HandPose& hand) noexcept {
   const Vec3& wrist = hand[Joint::wrist].position;
+  if (!(wrist.norm() < kFarthest_m)) return false;
   for (std::size_t i = 0; i < kJointCount; ++i) {
     const Pose& joint = hand.joints[i];
     if (!joint.position.allFinite() || !joint.rotation.coeffs().allFinite()) return false;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nade/assert.h"
 #include "posed_hand.h"
 #include "ramps.h"
 #include "settle_forces.h"
@@ -38,6 +39,8 @@ constexpr double kPushTime_s = 0.20506;
 /// A hand that moves farther from one frame to the next, or whose object grows by so much under it,
 /// was lost and found: its pads would not see from so far how deep they are.
 constexpr double kTeleport_m = 0.1;
+/// So is one whose palm is deeper than this in an object of another shape.
+constexpr double kSwallowed_m = 0.04;
 constexpr double kShortestFrame_s = 0.001;
 constexpr double kLongestFrame_s = 0.05;
 
@@ -106,6 +109,7 @@ class Settling {
  private:
   void start();
   void find_motion();
+  [[nodiscard]] bool is_swallowed() const;
   void find_whether_let_go();
   void start_outside();
   void find_strengths();
@@ -157,6 +161,15 @@ void Settling::find_motion() {
   follow_velocity(*last.tracked, model_.tracked, seconds_, follow, memory_.velocity);
 }
 
+/// Whether an object that changed its shape has the drawn hand deep inside by that.
+bool Settling::is_swallowed() const {
+  if (object_.surface().shape() == memory_.shape) return false;
+  const Vec3& palm = memory_.last.drawn[Joint::palm].position;
+  SurfaceHint hint = memory_.under_palm;
+  const auto nearest = object_.closest_point(palm, kDeepest_m, hint);
+  return nearest && nearest->signed_distance < -kSwallowed_m;
+}
+
 void Settling::find_whether_let_go() {
   const double away_m = largest_motion(memory_.last.drawn, *memory_.last.tracked);
   if (!follow_leaving(search_, away_m, memory_)) return;
@@ -170,7 +183,7 @@ void Settling::start() {
   const double growth = std::abs(object_.scale() / memory_.scale - 1.0);
   const double grown_m = growth * tracked[Joint::palm].position.norm();
   search_.seconds = seconds_;
-  fresh_ = !memory_.last.tracked || motion_m_ + grown_m > kTeleport_m;
+  fresh_ = !memory_.last.tracked || !(motion_m_ + grown_m <= kTeleport_m) || is_swallowed();
   if (!fresh_) find_whether_let_go();
   if (fresh_) {
     forget_frame(memory_);
@@ -371,6 +384,7 @@ SettledHand Settling::finish(const HandPose& posed) {
 SettledHand settle_hand(const HandPose& tracked, const HandFlesh& flesh, double scale,
                         const Object& object, double seconds, const SettleOptions& options,
                         SettleMemory& memory) noexcept {
+  NADE_ASSERT(memory.pads.size() == flesh.pads.size());
   if (memory.surface != &object.surface()) memory.last.tracked.reset();
   const Pose home = memory.last.tracked ? memory.home : object.placement().pose;
   const HandPose seen = seen_from(home, tracked);

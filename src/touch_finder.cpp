@@ -373,8 +373,7 @@ PatchTouches find_touches(const TouchSearch& search, const PosedHand& posed,
     known.same_m = plane_serves(known, lowest_m);
     // One that faces away is not looked at again until it could have come what its skin lacks.
     if (pad.part || lowest_m <= near_m) continue;
-    known.clearance_m = std::max(known.clearance_m, reach_m + lowest_m - near_m);
-    known.free_m = known.clearance_m + memory.travel_m;
+    known.free_m = std::max(known.free_m, farthest_reach_m + lowest_m - near_m + memory.travel_m);
   }
   add_pulls(search, posed, patches, memory);
   return patches;

@@ -45,6 +45,14 @@ TEST(Hand, AJointFarFromTheWristMakesAHandUnusable) {
   EXPECT_FALSE(is_usable(hand));
 }
 
+TEST(Hand, SoDoesAHandFarFromTheWorld) {
+  for (const double x : {1.1e6, 1e160, 1e300}) {
+    HandPose hand = test::sample_hand();
+    for (Pose& joint : hand.joints) joint.position.x() += x;
+    EXPECT_FALSE(is_usable(hand)) << x;
+  }
+}
+
 TEST(Hand, MirroringTwiceGivesTheHandBack) {
   const HandPose hand = test::placed_hand(test::sample_hand(), {0.1, 0.2, 0.3},
                                           Quat(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized())));

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -83,6 +84,39 @@ TEST(SettleMemory, AnotherBallInItsPlaceIsSeen) {
     const Object object(*surface, {{{0.0, -0.12, 0.0}, Quat::Identity()}, 1.0});
     drawn = corrector.update(pressed_hand(0.0), object, i * kFrame_ns).pose;
     ASSERT_GT(lowest_skin(drawn, object), -0.002) << "frame " << i;
+  }
+}
+
+/// One much larger, in one frame: the hand lay 141 mm deep in it for good.
+TEST(SettleMemory, AMuchLargerBallInItsPlaceDoesNotSwallowTheHand) {
+  HandCorrector corrector(settling());
+  std::optional<SphereSurface> surface;
+  HandPose drawn;
+  for (int i = 0; i < 120; ++i) {
+    surface.emplace(i < 60 ? 0.15 : 0.26);
+    const Object object(*surface, {{{0.0, -0.15, 0.0}, Quat::Identity()}, 1.0});
+    drawn = corrector.update(pressed_hand(0.01), object, i * kFrame_ns).pose;
+    ASSERT_GT(lowest_skin(drawn, object), -0.002) << "frame " << i;
+  }
+}
+
+/// The little finger's knuckle stays just above a ball while the hand rolls about it: a pad whose
+/// middle stayed was not looked at, and its skin turned in (by 1.3 mm once).
+TEST(SettleMemory, SkinThatTurnsAboutItsPadIsSeen) {
+  const HandPose hand = test::generic_size_hand();
+  const Pose& pivot = hand[Joint::little_proximal];
+  for (int trial = 0; trial < 10; ++trial) {
+    HandCorrector corrector(settling());
+    for (int i = 0; i < 300; ++i) {
+      const double time_s = i / 90.0;
+      const double angle = -1.65 + 0.01 * trial + 1.58 * std::sin(1.25 * time_s);
+      const Quat turn(Eigen::AngleAxisd(angle, pivot.rotation * Vec3::UnitZ()));
+      const double aside_m = 0.001 * std::sin(3.0 * time_s);
+      const Vec3 place = Vec3(aside_m, 0.0049, aside_m) - turn * pivot.position;
+      const HandPose drawn =
+          corrector.update(moved(hand, {place, turn}), ball(), i * kFrame_ns).pose;
+      ASSERT_GT(lowest_skin(drawn, ball()), -0.0001) << "trial " << trial << ", frame " << i;
+    }
   }
 }
 
