@@ -203,6 +203,22 @@ TEST(Corrector, AKnownLengthOfTheHandCountsMoreThanTheTrackers) {
   EXPECT_NEAR(result.pose[Joint::palm].position.y(), palm_skin(), 1e-6);
 }
 
+TEST(Corrector, ByThePapersMethodAnotherObjectIsMetAnew) {
+  CorrectorOptions options;
+  options.method = Method::paper;
+  HandCorrector corrector(options);
+  const PlaneSurface one;
+  const PlaneSurface other;
+  const HandPose tracked = pressed_hand(0.02);
+  const HandPose leaning =
+      moved(tracked, {{0.0, -0.03, 0.0}, Quat(Eigen::AngleAxisd(-0.9, Vec3::UnitZ()))});
+  (void)corrector.update(leaning, Object(one), 0);
+  const CorrectedHand& result = corrector.update(tracked, Object(other), kFrame_ns);
+  const auto& palm = result.contacts[index_of(Part::palm)];
+  ASSERT_TRUE(palm);
+  EXPECT_NEAR(palm->ray_direction.y(), 1.0, 1e-9);
+}
+
 TEST(Corrector, BelievableRadiiAreUsedAndOthersAreNot) {
   HandPose hand = pressed_hand(0.03);
   EXPECT_FALSE(believable_radii(hand).has_value());

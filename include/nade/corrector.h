@@ -73,7 +73,8 @@ class HandCorrector {
   /// The hand to draw for a tracked hand at `time_ns` (any origin). Never allocates or throws;
   /// the pose is finite if the tracked one is. A pose that cannot be used comes back as it is,
   /// status `untracked`. Frames in which the hand is missing are simply not passed. Time that
-  /// goes back, or the other hand, starts anew.
+  /// goes back, or the other hand, starts anew. Once a frame: a second call for the same time
+  /// counts as a frame of a millisecond.
   const CorrectedHand& update(const HandPose& tracked, const Object& object,
                               std::int64_t time_ns) noexcept;
 
@@ -100,6 +101,7 @@ class HandCorrector {
 
   CorrectorOptions options_;
   ContactMemory contact_memory_;
+  const Surface* met_ = nullptr;               ///< that it is of; only its address counts
   std::array<SettleMemory, 2> settle_memory_;  ///< by index_of(Handedness)
   CorrectedHand result_;
   std::optional<Frame> last_;
