@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "nade/assert.h"
+#include "ramps.h"
 
 namespace nade {
 namespace {
@@ -16,12 +17,6 @@ constexpr double kClear_m = 0.0002;
 /// A vertex off a spot's plane counts as so many times farther than one along it: the far side of
 /// an ear is not pressed in with the near one.
 constexpr float kAcross = 2.5F;
-
-/// 1 up to `from`, 0 from `to` on, level at both.
-float falling(float from, float to, float x) {
-  const float t = std::clamp((to - x) / (to - from), 0.0F, 1.0F);
-  return t * t * (3.0F - 2.0F * t);
-}
 
 }  // namespace
 
@@ -60,7 +55,7 @@ void dent(std::span<const DentSpot> spots, const DentOptions& options,
       const float squared =
           away.squaredNorm() + (kAcross * kAcross - 1.0F) * along_normal * along_normal;
       if (!(squared < falloff * falloff)) continue;
-      const float share = falling(plateau, falloff, std::sqrt(squared));
+      const float share = smoothstep(falloff, plateau, std::sqrt(squared));
       const auto clear = static_cast<float>(std::min(kClear_m, spot.depth_m));
       const float wanted =
           share * (static_cast<float>(std::min(spot.depth_m, options.deepest_m)) + clear);

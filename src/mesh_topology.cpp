@@ -265,10 +265,14 @@ class Orienter {
   [[nodiscard]] bool boxes_overlap() const {
     std::vector<Eigen::AlignedBox3f> boxes;
     for (const Component& component : components_) boxes.push_back(component.box);
+    Eigen::AlignedBox3f all;
+    for (const Eigen::AlignedBox3f& box : boxes) all.extend(box);
+    Eigen::Index axis = 0;  // along which they lie most apart
+    all.sizes().maxCoeff(&axis);
     std::sort(boxes.begin(), boxes.end(),
-              [](const auto& a, const auto& b) { return a.min().x() < b.min().x(); });
+              [axis](const auto& a, const auto& b) { return a.min()[axis] < b.min()[axis]; });
     for (std::size_t i = 0; i < boxes.size(); ++i) {
-      for (std::size_t j = i + 1; j < boxes.size() && boxes[j].min().x() <= boxes[i].max().x();
+      for (std::size_t j = i + 1; j < boxes.size() && boxes[j].min()[axis] <= boxes[i].max()[axis];
            ++j) {
         if (boxes[i].intersects(boxes[j])) return true;
       }

@@ -2,8 +2,8 @@
 
 namespace nade {
 
-/// Called when a caller breaks a documented precondition. It may throw, log or stop; if it
-/// returns, the program is stopped.
+/// Called when a caller breaks a documented precondition. It may log, stop or throw (what is
+/// noexcept stops the program then); if it returns, the program is stopped.
 using AssertHandler = void (*)(const char* condition, const char* file, int line);
 
 /// Replaces the handler (the first one prints to stderr) and returns the one before.

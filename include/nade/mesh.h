@@ -67,7 +67,7 @@ class MeshSurface final : public Surface {
   /// a hole or a part is not decided anew. Does not allocate. Not while another thread queries.
   void refit(std::span<const Eigen::Vector3f> vertices) noexcept;
 
-  /// Counts the refits.
+  /// Another after each refit, and for each mesh.
   [[nodiscard]] std::uint64_t shape() const noexcept override;
 
   [[nodiscard]] const MeshReport& report() const;
