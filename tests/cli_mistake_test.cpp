@@ -129,6 +129,18 @@ TEST_F(CliMistake, BadMeshIsNamed) {
   EXPECT_FALSE(std::filesystem::exists(path("out.jsonl")));
 }
 
+TEST_F(CliMistake, AMeshInMillimetresIsToldSo) {
+  make_stroke("in.jsonl");
+  write_file(path("block.obj"),
+             "v 0 0 0\nv 200 0 0\nv 0 150 0\nv 0 0 100\n"
+             "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  const Ran large = nade("correct in.jsonl -o out.jsonl --object block.obj");
+  EXPECT_EQ(large.status, 0) << large.err;
+  EXPECT_EQ(lines_of(large.err).at(0),
+            "nade: block.obj: 269 m large; --scale 0.001 if its file is in millimetres");
+  EXPECT_EQ(nade("correct in.jsonl -o out.jsonl --object block.obj --scale 0.001").err, "");
+}
+
 TEST_F(CliMistake, UnknownJointNameIsNamed) {
   std::string text = read_file(NADE_TEST_DATA_DIR "/webxr_actions.json");
   const std::string known = "\"ring-finger-tip\"";

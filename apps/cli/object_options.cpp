@@ -16,6 +16,19 @@ namespace {
   throw CLI::ValidationError(option, fmt::format("expected {}, found '{}'", expected, text));
 }
 
+/// An object so large is hardly one to stroke: its file counts in something smaller than metres.
+constexpr double kLargest_m = 20.0;
+
+void warn_of_size(const LoadedObject& object, double scale) {
+  if (!object.soup) return;
+  Eigen::AlignedBox3f bounds;
+  for (const Eigen::Vector3f& vertex : object.soup->vertices) bounds.extend(vertex);
+  const double size_m = scale * static_cast<double>(bounds.diagonal().norm());
+  if (!(size_m > kLargest_m)) return;
+  warn(fmt::format("{}: {:.3g} m large; --scale 0.001 if its file is in millimetres", object.spec,
+                   size_m));
+}
+
 }  // namespace
 
 void add_object_options(CLI::App& command, ObjectOptions& options) {
@@ -75,6 +88,7 @@ Result<PlacedObject> load_placed(const ObjectOptions& options,
   if (options.at) placement.pose.position = *options.at;
   if (options.turn) placement.pose.rotation = *options.turn;
   if (options.scale) placement.scale = *options.scale;
+  warn_of_size(*loaded, placement.scale);
   PlacedObject placed{std::move(loaded).value(), placement};
   if (same) placed.animation_start_ns = recorded->animation_start_ns;
   return placed;
