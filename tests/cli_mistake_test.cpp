@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -139,6 +141,36 @@ TEST_F(CliMistake, AMeshInMillimetresIsToldSo) {
   EXPECT_EQ(lines_of(large.err).at(0),
             "nade: block.obj: 269 m large; --scale 0.001 if its file is in millimetres");
   EXPECT_EQ(nade("correct in.jsonl -o out.jsonl --object block.obj --scale 0.001").err, "");
+}
+
+/// Blocks of 16 mm, 4 mm apart: what is nearest to the hand between them is now one, now another.
+TEST_F(CliMistake, AStrokeThatJumpsIsToldSo) {
+  std::ostringstream keys;
+  int first = 1;
+  for (int i = -5; i <= 5; ++i) {
+    for (int k = -5; k <= 5; ++k, first += 8) {
+      for (int corner = 0; corner < 8; ++corner) {
+        keys << "v " << 0.02 * i + ((corner & 4) != 0 ? 0.008 : -0.008) << ' '
+             << ((corner & 2) != 0 ? 0.0 : -0.02) << ' '
+             << 0.02 * k + ((corner & 1) != 0 ? 0.008 : -0.008) << '\n';
+      }
+      for (const auto& [a, b, c, d] : std::vector<std::array<int, 4>>{{0, 1, 3, 2},
+                                                                      {4, 6, 7, 5},
+                                                                      {0, 4, 5, 1},
+                                                                      {2, 3, 7, 6},
+                                                                      {0, 2, 6, 4},
+                                                                      {1, 5, 7, 3}}) {
+        keys << "f " << first + a << ' ' << first + b << ' ' << first + c << ' ' << first + d
+             << '\n';
+      }
+    }
+  }
+  write_file(path("keys.obj"), keys.str());
+  const Ran jumps = nade("synth -o out.jsonl --object keys.obj --stroke zigzag --depth 0.02");
+  EXPECT_EQ(jumps.status, 0) << jumps.err;
+  EXPECT_NE(jumps.err.find("nade: keys.obj: the hand jumps, farthest by "), std::string::npos)
+      << jumps.err;
+  EXPECT_EQ(nade("synth -o out.jsonl --object sphere --stroke zigzag --speed 1").err, "");
 }
 
 TEST_F(CliMistake, UnknownJointNameIsNamed) {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <memory>
@@ -8,6 +9,8 @@
 #include <string_view>
 
 #include "commands.h"
+#include "console.h"
+#include "nade/correction.h"
 #include "nade/eval/synth.h"
 #include "nade/io/recording.h"
 #include "object_options.h"
@@ -57,6 +60,31 @@ void add_parsed(CLI::App& command, const std::string& name, T& value,
       ->type_name(expected);
 }
 
+/// What goes farther in a frame than this, and so many times its speed's way, jumps.
+constexpr double kJump_m = 0.05;
+constexpr double kJumpOfWay = 4.0;
+
+/// Where a stroke's hand jumps: a step of the surface is one of the hand that follows it.
+struct FarthestJump {
+  double length_m = 0.0;
+  double time_s = 0.0;
+  std::optional<HandPose> before;
+
+  void take(const RecordedFrame& frame, const SynthOptions& options) {
+    const auto& hand = frame.hands[index_of(options.side)];
+    if (!hand) {
+      before.reset();
+      return;
+    }
+    const double way_m = before ? largest_motion(*before, hand->pose) : 0.0;
+    before = hand->pose;
+    const double far_m = kJump_m + kJumpOfWay * options.speed_m_per_s / options.rate_hz;
+    if (way_m <= std::max(far_m, length_m)) return;
+    length_m = way_m;
+    time_s = 1e-9 * static_cast<double>(frame.time_ns);
+  }
+};
+
 Status run_synth(const SynthArguments& arguments) {
   SynthOptions options = arguments.synth;
   options.tilt_rad = arguments.tilt_deg * kDegree;
@@ -69,9 +97,17 @@ Status run_synth(const SynthArguments& arguments) {
   if (!synth) return synth.error();
   Result<RecordingWriter> writer = RecordingWriter::create(arguments.output, synth->header());
   if (!writer) return writer.error();
+  FarthestJump jump;
   while (const auto frame = synth->next()) {
     const Status written = writer->write(*frame);
     if (!written.ok()) return written;
+    jump.take(*frame, options);
+  }
+  if (jump.length_m > 0.0) {
+    warn(
+        fmt::format("{}: the hand jumps, farthest by {:.0f} mm at {:.2f} s: the surface that it "
+                    "follows has a step there",
+                    placed->loaded.spec, 1e3 * jump.length_m, jump.time_s));
   }
   return writer->finish();
 }
