@@ -6,6 +6,7 @@
 #include "nade/assert.h"
 #include "posed_hand.h"
 #include "ramps.h"
+#include "settle_fold.h"
 #include "settle_forces.h"
 #include "settle_frame.h"
 #include "settle_leave.h"
@@ -248,7 +249,10 @@ SettleProblem Settling::problem_at(const PosedHand& posed, int round) const {
   const bool in_air = is_in_air();
   problem.springs.add(in_air ? stiffness_in_air(away) : stiffness_of_pose(away), -away);
   // The forces on a hand found anew are not yet those that it will rest with.
-  if (!fresh_) problem.springs.add(memory_.geometric, HandFreedoms::Zero());
+  if (!fresh_) {
+    problem.springs.add(memory_.geometric, HandFreedoms::Zero());
+    fold_alike(posed, patches_, problem.springs);
+  }
 
   const HandFreedoms changed = step_between(last_, correction_, search_.frame);
   if (!fresh_) {

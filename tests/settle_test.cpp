@@ -181,6 +181,32 @@ TEST(Settle, AHandOnItsWayOutIsFreeInTheEnd) {
   EXPECT_TRUE(same_bits(corrector.update(away, ball(), time_ns).pose, away));
 }
 
+/// A hand that points straight down: index and ring folded one way, the middle finger the other.
+TEST(Settle, FingersThatStandFoldToTheSameSide) {
+  for (const double tilt_deg : {-75.0, -80.0, -85.0, -90.0, -95.0}) {
+    const Quat tilt(Eigen::AngleAxisd(tilt_deg * kDegree, Vec3::UnitX()));
+    HandCorrector corrector(settling());
+    HandPose drawn;
+    for (int i = 0; i < 180; ++i) {
+      const HandPose hand = moved(test::generic_size_hand(), {Vec3::Zero(), tilt});
+      const double depth_m = std::min(0.03, 0.001 * i - 0.03);
+      const double tip_m = hand[Joint::middle_tip].position.y();
+      const HandPose tracked = moved(hand, {{0.0, -depth_m - tip_m, 0.0}, Quat::Identity()});
+      drawn = corrector.update(tracked, plane(), i * kFrame_ns).pose;
+    }
+    const auto lean = [&](Digit digit) {
+      const DigitJoints joints = joints_of(digit);
+      const std::size_t knuckle = index_of(joints.metacarpal) + 1;
+      return (drawn[joints.tip].position - drawn.joints[knuckle].position).z();
+    };
+    const double index_m = lean(Digit::index);
+    EXPECT_GT(std::abs(index_m), 0.02) << tilt_deg;
+    for (const Digit digit : {Digit::middle, Digit::ring}) {
+      EXPECT_GT(lean(digit) * index_m, 0.0) << tilt_deg << " degrees, finger " << index_of(digit);
+    }
+  }
+}
+
 TEST(Settle, TheLeftHandIsTheRightOneInTheMirror) {
   HandCorrector left(settling());
   HandCorrector right(settling());
