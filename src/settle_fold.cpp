@@ -11,7 +11,7 @@ namespace {
 /// straight, whose share of its bones' length from knuckle to tip is between those.
 constexpr double kLeans = 0.85;
 constexpr double kStands = 0.95;
-constexpr double kBent = 0.8;
+constexpr double kBent = 0.9;
 constexpr double kStraight = 0.95;
 /// A finger counts whose tip is pressed in so deep.
 constexpr double kPressed_m = 0.004;
