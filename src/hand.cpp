@@ -42,6 +42,7 @@ constexpr std::array<JointNames, kJointCount> kNames{{
 
 /// Longer than any hand, shorter than any tracking blunder worth stopping.
 constexpr double kLongestHand_m = 0.5;
+/// Numbers are too coarse beyond, or distances not finite.
 constexpr double kFarthest_m = 1e6;
 constexpr double kUnitTolerance = 1e-3;
 

@@ -53,8 +53,6 @@ constexpr double kSettled_m = 0.0004;
 /// factor, and the last is a small one.
 constexpr double kShorterSteps = 0.85;
 constexpr double kFirstSettled_m = 1e-6;
-/// Where the person presses again, what was let go is back no later than after this.
-constexpr double kReturnToTouch_s = 0.25;
 /// In the air, a correction smaller than this is over.
 constexpr double kReleased_m = 0.0001;
 constexpr double kLongestTurn_rad = 0.3;
@@ -111,13 +109,12 @@ class Settling {
   void start();
   void find_motion();
   [[nodiscard]] bool is_swallowed() const;
-  void find_whether_let_go();
   void start_outside();
   void find_strengths();
   [[nodiscard]] Correction after(const HandFreedoms& step) const;
   [[nodiscard]] SettleProblem problem_at(const PosedHand& posed, int round) const;
   [[nodiscard]] bool is_in_air() const {
-    return !fresh_ && (memory_.push.isZero() || memory_.held_up);
+    return !fresh_ && (memory_.push.isZero() || is_held_up(memory_));
   }
   [[nodiscard]] double farthest_way() const;
   [[nodiscard]] bool is_in_contact() const;
@@ -171,13 +168,6 @@ bool Settling::is_swallowed() const {
   return nearest && nearest->signed_distance < -kSwallowed_m;
 }
 
-void Settling::find_whether_let_go() {
-  const double away_m = largest_motion(memory_.last.drawn, *memory_.last.tracked);
-  if (!follow_leaving(search_, away_m, memory_)) return;
-  let_go_from_ = memory_.last.correction;
-  fresh_ = true;
-}
-
 void Settling::start() {
   const HandPose& tracked = model_.tracked;
   find_motion();
@@ -185,7 +175,10 @@ void Settling::start() {
   const double grown_m = growth * tracked[Joint::palm].position.norm();
   search_.seconds = seconds_;
   fresh_ = !memory_.last.tracked || !(motion_m_ + grown_m <= kTeleport_m) || is_swallowed();
-  if (!fresh_) find_whether_let_go();
+  if (!fresh_ && follow_leaving(search_, memory_)) {
+    let_go_from_ = memory_.last.correction;
+    fresh_ = true;
+  }
   if (fresh_) {
     forget_frame(memory_);
   } else if (object_.scale() != memory_.scale || object_.surface().shape() != memory_.shape) {
@@ -221,7 +214,7 @@ void Settling::find_strengths() {
   const FingerCurls curls = curls_of(model_);
   if (memory_.push.isZero()) memory_.curl_at_touch = curls;
   search_.strengths = pull_strengths(memory_.unrest, curls, memory_.curl_at_touch);
-  search_.pulls = !memory_.held_up;
+  search_.pulls = !is_held_up(memory_);
   // On a hand found anew no pull has to come first.
   search_.pulls_before = fresh_ ? search_.strengths : memory_.pulls;
 }
@@ -314,7 +307,7 @@ void Settling::find_push(const Vec3& force) {
 }
 
 void Settling::remember_contact() {
-  if (push_.isZero() || memory_.normal.isZero() || memory_.held_up) {
+  if (push_.isZero() || memory_.normal.isZero() || is_held_up(memory_)) {
     forget_slide(memory_);
   } else {
     const Vec3& palm = model_.tracked[Joint::palm].position;
@@ -345,16 +338,11 @@ void Settling::remember_frame(const HandPose& drawn) {
 /// What the object let go is found anew at once, and drawn so a little later: it comes back through
 /// the object.
 HandPose Settling::on_its_way_back(const HandPose& settled) {
-  const Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();
-  if (let_go_from_) {
-    memory_.returning = step_between(correction_, *let_go_from_, frame);
-    memory_.return_share = 1.0;
-  }
+  if (let_go_from_) start_return(*let_go_from_, correction_, memory_);
+  follow_return(motion_m_, seconds_, is_in_contact(), memory_);
   if (memory_.return_share == 0.0) return settled;
-  const double way = way_of_return(motion_m_, seconds_) / reach_of(memory_.returning);
-  const double share = is_in_contact() ? std::max(way, seconds_ / kReturnToTouch_s) : way;
-  memory_.return_share = std::max(0.0, memory_.return_share - share);
   const HandFreedoms left = memory_.return_share * memory_.returning;
+  const Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();
   return pose_hand(model_, after_step(correction_, left, frame, model_.ranges)).hand;
 }
 

@@ -22,6 +22,9 @@ constexpr double kTorque = 2.0;
 constexpr double kTurningLean = 0.1;
 constexpr double kUndecided = 0.05;
 
+/// Of a digit's freedoms.
+constexpr int kKnuckleFlexion = 1;
+
 /// A finger pressed against the surface.
 struct Standing {
   double pressed = 0.0;  ///< 0 to 1
@@ -33,8 +36,8 @@ Standing standing_of(const PosedHand& posed, Digit digit, const PatchTouch& patc
   Standing finger;
   if (!(patch.depth_m > 0.0)) return finger;
   const auto& joints = posed.hand.joints;
-  const std::size_t tip = index_of(joints_of(digit).tip);
-  const std::size_t knuckle = tip - kHingeCount;
+  const std::size_t knuckle = index_of(hinge_joint(digit, 0));
+  const std::size_t tip = index_of(hinge_joint(digit, kHingeCount));
   double length_m = 0.0;
   for (std::size_t i = knuckle; i < tip; ++i) {
     length_m += (joints[i + 1].position - joints[i].position).norm();
@@ -45,7 +48,7 @@ Standing standing_of(const PosedHand& posed, Digit digit, const PatchTouch& patc
   finger.pressed = smoothstep(0.0, kPressed_m, patch.depth_m);
   finger.stands = finger.pressed * smoothstep(kBent, kStraight, reach_m / length_m) *
                   smoothstep(kLeans, kStands, -reach.dot(patch.normal) / reach_m);
-  finger.lean = motion_of(posed, tip).with_bend[1].dot(patch.normal) / length_m;
+  finger.lean = motion_of(posed, tip).with_bend[kKnuckleFlexion].dot(patch.normal) / length_m;
   return finger;
 }
 
@@ -68,7 +71,7 @@ void fold_alike(const PosedHand& posed, const PatchTouches& patches, Springs& sp
   const double way = lean / pressed - kTurningLean;
   const double torque = kTorque * (2.0 * smoothstep(-kUndecided, kUndecided, way) - 1.0);
   for (std::size_t d = 0; d < kDigitCount; ++d) {
-    springs.force[first_freedom(d) + 1] += torque * fingers[d].stands;
+    springs.force[first_freedom(d) + kKnuckleFlexion] += torque * fingers[d].stands;
   }
 }
 

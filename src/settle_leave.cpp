@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "nade/correction.h"
+#include "settle_step.h"
+
 namespace nade {
 namespace {
 
@@ -17,6 +20,11 @@ constexpr double kOnItsWay_s = 0.1;
 /// most.
 constexpr double kPatience_s = 1.0;
 constexpr double kStuck_m = 0.13;
+/// It comes back through the object by up to so many times the tracked hand's motion, and so fast.
+constexpr double kReturnOfMotion = 1.8;
+constexpr double kReturn_mps = 0.17;
+/// Where the person presses again, it is back no later than after this.
+constexpr double kReturnToTouch_s = 0.25;
 
 /// How far a pad of the tracked hand is out of the object, in the middle.
 double out_by(const TouchSearch& search, std::size_t pad, const SettleMemory& memory) {
@@ -44,15 +52,33 @@ bool is_tracked_clear(const TouchSearch& search, SettleMemory& memory) {
 
 }  // namespace
 
-bool follow_leaving(const TouchSearch& search, double away_m, SettleMemory& memory) noexcept {
+bool is_held_up(const SettleMemory& memory) noexcept { return memory.clear_s > kOnItsWay_s; }
+
+bool follow_leaving(const TouchSearch& search, SettleMemory& memory) noexcept {
+  const double away_m = largest_motion(memory.last.drawn, *memory.last.tracked);
   const bool far = !memory.push.isZero() && (memory.clear_s > 0.0 || away_m > kFar_m);
   const bool clear = far && is_tracked_clear(search, memory);
   memory.clear_s = clear ? memory.clear_s + search.seconds : 0.0;
-  memory.held_up = memory.clear_s > kOnItsWay_s;
-  if (!memory.held_up) memory.stuck_s = 0.0;
-  const double pace = memory.held_up && away_m > kStuck_m ? away_m / kStuck_m : -1.0;
+  if (!is_held_up(memory)) {
+    memory.stuck_s = 0.0;
+    return false;
+  }
+  const double pace = away_m > kStuck_m ? away_m / kStuck_m : -1.0;
   memory.stuck_s = std::max(0.0, memory.stuck_s + pace * search.seconds);
   return memory.stuck_s > kPatience_s;
+}
+
+void start_return(const Correction& from, const Correction& to, SettleMemory& memory) noexcept {
+  memory.returning = step_between(to, from, Eigen::Matrix3d::Identity());
+  memory.return_share = 1.0;
+}
+
+void follow_return(double motion_m, double seconds, bool pressed, SettleMemory& memory) noexcept {
+  if (memory.return_share == 0.0) return;
+  const double way_m = kReturnOfMotion * motion_m + kReturn_mps * seconds;
+  const double share = way_m / reach_of(memory.returning);
+  const double gone = pressed ? std::max(share, seconds / kReturnToTouch_s) : share;
+  memory.return_share = std::max(0.0, memory.return_share - gone);
 }
 
 }  // namespace nade

@@ -8,9 +8,18 @@ namespace nade {
 // What becomes of a drawn hand that is held up by an object which the person's has left: lifted
 // over the edge that it was pressed in beside, or gone right through.
 
-/// Takes in whether the tracked hand is clear of the object, with a joint of the drawn one `away_m`
-/// from it. Whether the object lets it go: then it is to be found anew. Not for one that is.
-[[nodiscard]] bool follow_leaving(const TouchSearch& search, double away_m,
-                                  SettleMemory& memory) noexcept;
+/// Whether the object holds up a hand that has left it.
+[[nodiscard]] bool is_held_up(const SettleMemory& memory) noexcept;
+
+/// Takes in whether the tracked hand is clear of the object. Whether that lets the drawn one go:
+/// then it is to be found anew. Not for one that is.
+[[nodiscard]] bool follow_leaving(const TouchSearch& search, SettleMemory& memory) noexcept;
+
+/// A hand that was let go is drawn on its way back from one correction to another. What is left of
+/// that, `return_share` of `returning`, is counted along the object's axes.
+void start_return(const Correction& from, const Correction& to, SettleMemory& memory) noexcept;
+
+/// Takes in a frame of the way back, in which the tracked hand went so far, and may press again.
+void follow_return(double motion_m, double seconds, bool pressed, SettleMemory& memory) noexcept;
 
 }  // namespace nade

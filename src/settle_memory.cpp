@@ -30,7 +30,6 @@ void forget_frame(SettleMemory& memory) noexcept {
   memory.last = {};
   memory.push = memory.normal = Vec3::Zero();
   forget_slide(memory);
-  memory.held_up = false;
   memory.last_inside = 0;
   memory.geometric.setZero();
   memory.velocity.fill(Vec3::Zero());

@@ -30,9 +30,6 @@ constexpr double kWayInAir = 1.4;
 constexpr double kRateInAir_mps = 0.03;
 constexpr double kCatchUpTime_s = 0.5;
 constexpr double kFastestAtRest_mps = 0.12;
-/// What the object let go comes back through it by up to so many times that motion, and so fast.
-constexpr double kReturnOfMotion = 1.8;
-constexpr double kReturn_mps = 0.17;
 
 constexpr double kHoldStiffness = 1.5e5;
 /// The time constant with which a drawn joint takes on the tracked one's velocity.
@@ -78,10 +75,6 @@ double way_in_air(double motion_m, double away_m, double seconds) noexcept {
   const double rest = rest_of(motion_m, seconds);
   const double rate_mps = kRateInAir_mps + rest * (at_rest_mps - kRateInAir_mps);
   return std::max(kWayInAir * motion_m, rate_mps * seconds);
-}
-
-double way_of_return(double motion_m, double seconds) noexcept {
-  return kReturnOfMotion * motion_m + kReturn_mps * seconds;
 }
 
 void follow_velocity(const HandPose& from, const HandPose& to, double seconds, double share,

@@ -24,9 +24,6 @@ void follow_rest(double motion_m, double seconds, double& rest) noexcept;
 [[nodiscard]] double way_on_surface(double motion_m, double rest, double seconds) noexcept;
 [[nodiscard]] double way_in_air(double motion_m, double away_m, double seconds) noexcept;
 
-/// How far a joint of a hand that was let go comes back in a frame, over what the tracked one goes.
-[[nodiscard]] double way_of_return(double motion_m, double seconds) noexcept;
-
 /// Takes a share of each joint's velocity from one pose to the next into a smoothed one, m/s.
 void follow_velocity(const HandPose& from, const HandPose& to, double seconds, double share,
                      JointVectors& velocity) noexcept;

@@ -150,10 +150,8 @@ struct SettleMemory {
   Vec3 lag = Vec3::Zero();           ///< along the surface, by friction
   Vec3 drawn_lag = Vec3::Zero();     ///< the same, smoothed
   bool slips = false;
-  double clear_s =
-      0.0;  ///< how long the tracked hand has been clear of the object, the drawn one far
-  bool held_up = false;  ///< whether the object holds up a hand that has left it
-  double stuck_s = 0.0;  ///< how long that has been stuck; the longer, the farther off it is
+  double clear_s = 0.0;  ///< how long the tracked hand is clear of the object, the drawn one far
+  double stuck_s = 0.0;  ///< how long the drawn one is held up; the longer, the farther off it is
   HandFreedoms returning = HandFreedoms::Zero();  ///< from where a hand that was let go comes back
   double return_share = 0.0;                      ///< and how much of that is left, 1 to 0
   std::size_t last_inside = 0;  ///< the pad whose tracked skin was last found in the object
