@@ -10,6 +10,7 @@
 #include "settle_forces.h"
 #include "settle_frame.h"
 #include "settle_leave.h"
+#include "settle_lift.h"
 #include "settle_normal.h"
 #include "settle_pace.h"
 #include "settle_slide.h"
@@ -245,6 +246,7 @@ SettleProblem Settling::problem_at(const PosedHand& posed, int round) const {
   if (!fresh_) {
     problem.springs.add(memory_.geometric, HandFreedoms::Zero());
     fold_alike(posed, patches_, problem.springs);
+    if (!in_air) lift_over(posed, search_, memory_.rows, problem.springs);
   }
 
   const HandFreedoms changed = step_between(last_, correction_, search_.frame);
