@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "nade/geometry.h"
 #include "ramps.h"
-#include "settle_frame.h"
 
 namespace nade {
 namespace {
