@@ -205,7 +205,8 @@ void Settling::start() {
   correction_ = after(step_between(memory_.before, memory_.last.correction, search_.frame));
   search_.before = pose_flesh(memory_.last.drawn, model_.scale);
   search_.speed_mps = motion_m_ / seconds_;
-  coasted_ = coasted_joints(memory_.last, memory_.drift, tracked, seconds_);
+  follow_strike(*memory_.last.tracked, tracked, normal_, seconds_, memory_.strike_mps);
+  coasted_ = coasted_joints(memory_, tracked, normal_, seconds_);
   farthest_m_ = farthest_way();
 }
 
@@ -327,8 +328,12 @@ void Settling::remember_contact() {
 
 void Settling::remember_frame(const HandPose& drawn) {
   const SettledFrame now{model_.tracked, drawn, correction_};
-  if (fresh_) memory_.drift.fill(Vec3::Zero());  // it did not come from anywhere
-  if (!fresh_) memory_.drift = drift_between(memory_.last, now, seconds_);
+  if (fresh_) {  // it did not come from anywhere
+    memory_.pace.fill(Vec3::Zero());
+    memory_.drift.fill(Vec3::Zero());
+  } else {
+    follow_pace(now, seconds_, memory_);
+  }
   memory_.before = fresh_ ? now.correction : memory_.last.correction;
   memory_.last = now;
   memory_.fresh = fresh_;

@@ -13,6 +13,7 @@ SettleMemory settle_memory(const HandFlesh& flesh) {
   memory.rows.reserve(kMostContactRows);
   memory.joints.fill(Vec3::Zero());  // Eigen's vectors begin with whatever was there
   memory.velocity.fill(Vec3::Zero());
+  memory.pace.fill(Vec3::Zero());
   memory.drift.fill(Vec3::Zero());
   memory.unrest = no_unrest();
   return memory;
@@ -35,7 +36,8 @@ void forget_frame(SettleMemory& memory) noexcept {
   memory.velocity.fill(Vec3::Zero());
   memory.joints.fill(Vec3::Zero());
   memory.travel_m = memory.way_m = memory.rest = memory.height_m = memory.nearest_m =
-      memory.deepest_m = memory.clear_s = memory.stuck_s = memory.return_share = 0.0;
+      memory.deepest_m = memory.strike_mps = memory.clear_s = memory.stuck_s = memory.return_share =
+          0.0;
   memory.under_palm = memory.under_hand = memory.under_nearest = {};
   memory.pads.assign(memory.pads.size(), {});
   break_motion(memory.unrest);

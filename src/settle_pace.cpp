@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ramps.h"
+#include "settle_leave.h"
 #include "settle_step.h"
 
 namespace nade {
@@ -34,6 +35,18 @@ constexpr double kFastestAtRest_mps = 0.12;
 constexpr double kHoldStiffness = 1.5e5;
 /// The time constant with which a drawn joint takes on the tracked one's velocity.
 constexpr double kCoastTime_s = 0.059194;
+/// A hand strikes the object that goes to it so fast, and surely strikes it; of late is within
+/// about this time. Its joints take on the tracked ones' velocity with this time constant besides.
+constexpr double kStrike_mps = 0.3;
+constexpr double kSureStrike_mps = 0.7;
+constexpr double kStrikeTime_s = 0.15;
+constexpr double kStrikeCoastTime_s = 0.02;
+/// From so deep on it rests on the object, and surely rests: those of its drawn joints that go to
+/// the surface or from it no faster than this, and surely not so fast.
+constexpr double kDeep_m = 0.01;
+constexpr double kSurelyDeep_m = 0.04;
+constexpr double kStill_mps = 0.1;
+constexpr double kNotStill_mps = 0.4;
 
 /// From a tracked joint to the drawn one.
 Vec3 offset_of(const SettledFrame& frame, std::size_t joint) {
@@ -85,21 +98,38 @@ void follow_velocity(const HandPose& from, const HandPose& to, double seconds, d
   }
 }
 
-JointVectors drift_between(const SettledFrame& before, const SettledFrame& now,
-                           double seconds) noexcept {
-  JointVectors drift;
+void follow_strike(const HandPose& from, const HandPose& to, const Vec3& normal, double seconds,
+                   double& strike_mps) noexcept {
+  strike_mps *= std::exp(-seconds / kStrikeTime_s);
   for (std::size_t i = 0; i < kJointCount; ++i) {
-    drift[i] = (offset_of(now, i) - offset_of(before, i)) / seconds;
+    const Vec3 way = to.joints[i].position - from.joints[i].position;
+    const double over_m = std::abs(normal.dot(way)) - along_surface(way, normal).norm();
+    strike_mps = std::max(strike_mps, over_m / seconds);
   }
-  return drift;
 }
 
-JointVectors coasted_joints(const SettledFrame& last, const JointVectors& drift,
-                            const HandPose& tracked, double seconds) noexcept {
-  const double faded_s = seconds * std::exp(-seconds / kCoastTime_s);
+void follow_pace(const SettledFrame& now, double seconds, SettleMemory& memory) noexcept {
+  const SettledFrame& before = memory.last;
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    memory.pace[i] = (now.drawn.joints[i].position - before.drawn.joints[i].position) / seconds;
+    memory.drift[i] = (offset_of(now, i) - offset_of(before, i)) / seconds;
+  }
+}
+
+JointVectors coasted_joints(const SettleMemory& memory, const HandPose& tracked, const Vec3& normal,
+                            double seconds) noexcept {
+  const SettledFrame& last = memory.last;
+  const double strikes = smoothstep(kStrike_mps, kSureStrike_mps, memory.strike_mps);
+  const double rests = strikes * smoothstep(kDeep_m, kSurelyDeep_m, memory.deepest_m);
+  const bool held_up = is_held_up(memory);  // not drawn to the surface, so it would not come back
+  const double fading = 1.0 / kCoastTime_s + strikes / kStrikeCoastTime_s;
+  const double faded_s = seconds * std::exp(-seconds * fading);
   JointVectors coasted;
   for (std::size_t i = 0; i < kJointCount; ++i) {
-    coasted[i] = tracked.joints[i].position + offset_of(last, i) + faded_s * drift[i];
+    coasted[i] = tracked.joints[i].position + offset_of(last, i) + faded_s * memory.drift[i];
+    const double pace_mps = std::abs(normal.dot(memory.pace[i]));
+    const double still = held_up ? 1.0 : smoothstep(kNotStill_mps, kStill_mps, pace_mps);
+    coasted[i] += rests * still * normal.dot(last.drawn.joints[i].position - coasted[i]) * normal;
   }
   return coasted;
 }

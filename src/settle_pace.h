@@ -28,14 +28,20 @@ void follow_rest(double motion_m, double seconds, double& rest) noexcept;
 void follow_velocity(const HandPose& from, const HandPose& to, double seconds, double share,
                      JointVectors& velocity) noexcept;
 
-/// How the drawn joints came away from the tracked ones in a frame, m/s.
-[[nodiscard]] JointVectors drift_between(const SettledFrame& before, const SettledFrame& now,
-                                         double seconds) noexcept;
+/// Takes a frame into how fast the tracked hand went of late straight to the surface or from it, as
+/// one does that pats: its fastest joint, by what it went along `normal` more than across.
+void follow_strike(const HandPose& from, const HandPose& to, const Vec3& normal, double seconds,
+                   double& strike_mps) noexcept;
+
+/// Takes in how the drawn joints went in a frame, and how they came away from the tracked ones.
+void follow_pace(const SettledFrame& now, double seconds, SettleMemory& memory) noexcept;
 
 /// Where the drawn joints are if each keeps its way from the tracked one, and what changed of that
-/// in the last frame goes on, a little slower.
-[[nodiscard]] JointVectors coasted_joints(const SettledFrame& last, const JointVectors& drift,
-                                          const HandPose& tracked, double seconds) noexcept;
+/// in the last frame goes on, a little slower. A hand that strikes the object deep rests on it,
+/// whatever the person's does: along the surface's normal what keeps still keeps so. Out of the
+/// object it takes on the person's speed the sooner.
+[[nodiscard]] JointVectors coasted_joints(const SettleMemory& memory, const HandPose& tracked,
+                                          const Vec3& normal, double seconds) noexcept;
 
 /// Gives the hand inertia: springs as stiff as that, 1/m^2, from every joint of `posed` to where it
 /// would coast to. `frame` is that of the step.

@@ -162,11 +162,13 @@ struct SettleMemory {
   std::vector<PadMemory> pads;
   std::vector<ContactRow> rows;
   JointVectors velocity{};  ///< of the tracked joints against the object, smoothed, m/s
-  JointVectors drift{};     ///< velocity of the drawn joints over the tracked, m/s
+  JointVectors pace{};      ///< velocity of the drawn joints, m/s
+  JointVectors drift{};     ///< and what of it the tracked ones did not have
   JointVectors joints{};    ///< of the hand as looked at last
   double travel_m = 0.0;    ///< the sum of what its farthest joint went from look to look
   double way_m = 0.0;       ///< and of what the tracked hand's went from frame to frame
   double rest = 0.0;        ///< how still the tracked hand has kept of late, 1 at rest
+  double strike_mps = 0.0;  ///< how fast it went to the surface, or from it
 };
 
 /// A memory with room for a hand's pads; settle_hand allocates nothing then.
