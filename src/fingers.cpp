@@ -24,17 +24,12 @@ const DigitFreedoms kStiffness{4.0, 1.0, 4.0, 9.0};
 constexpr int kMostSteps = 60;
 constexpr double kSmallestStep_rad = 1e-7;
 
-struct Bounds {
-  DigitFreedoms low;
-  DigitFreedoms high;
-};
-
 /// Least squares over one digit: tip error against deviation from the tracked angles.
 struct ReachProblem {
   const DigitChain& chain;
   Vec3 target;
   DigitFreedoms tracked;
-  Bounds bounds;
+  BendRange bounds;
   double tip_weight_m = kTipWeights_m.front();
 
   [[nodiscard]] double cost(const Vec3& tip, const DigitFreedoms& x) const {
@@ -43,20 +38,8 @@ struct ReachProblem {
   }
 };
 
-Bounds bounds_of(const DigitChain& chain, const DigitFreedoms& tracked) {
-  const HingeRange base = range_of_motion(chain.digit, 0);
-  const HingeRange middle = range_of_motion(chain.digit, 1);
-  const HingeRange last = range_of_motion(chain.digit, 2);
-  Bounds bounds;
-  bounds.low << base.abduction_min, base.flexion_min, middle.flexion_min, last.flexion_min;
-  bounds.high << base.abduction_max, base.flexion_max, middle.flexion_max, last.flexion_max;
-  bounds.low = bounds.low.cwiseMin(tracked);
-  bounds.high = bounds.high.cwiseMax(tracked);
-  return bounds;
-}
-
 /// A bound that the descent direction pushes against is held for this step.
-bool is_held(const Bounds& bounds, const DigitFreedoms& x, const DigitFreedoms& descent,
+bool is_held(const BendRange& bounds, const DigitFreedoms& x, const DigitFreedoms& descent,
              Eigen::Index i) {
   return (x[i] <= bounds.low[i] && descent[i] < 0.0) ||
          (x[i] >= bounds.high[i] && descent[i] > 0.0);
@@ -98,8 +81,9 @@ Derivatives derivatives_at(const ReachProblem& problem, const DigitAxes& axes,
 
 /// The damped step over the angles that are free to move; nothing where the Hessian, damped, is
 /// not positive definite.
-std::optional<DigitFreedoms> free_step(Hessian hessian, DigitFreedoms descent, const Bounds& bounds,
-                                       const DigitFreedoms& x, const DigitFreedoms& damping) {
+std::optional<DigitFreedoms> free_step(Hessian hessian, DigitFreedoms descent,
+                                       const BendRange& bounds, const DigitFreedoms& x,
+                                       const DigitFreedoms& damping) {
   hessian.diagonal() += damping;
   for (Eigen::Index i = 0; i < hessian.rows(); ++i) {
     if (!is_held(bounds, x, descent, i)) continue;
@@ -235,7 +219,7 @@ double turn_ray_if_short(const HandPose& tracked, const DigitChain& chain, const
 
 DigitAngles reach(const DigitChain& chain, const Vec3& target_world) noexcept {
   const DigitFreedoms tracked = freedoms_of(chain.angles);
-  ReachProblem problem{chain, target_world, tracked, bounds_of(chain, tracked)};
+  ReachProblem problem{chain, target_world, tracked, bend_range(chain)};
   // Starting from the finger turned whole toward the target: of several answers it is always
   // the one next to the tracked shape.
   const Vec3 tip = chain_axes(chain, chain.angles).tip;

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <tuple>
 
+#include "nade/assert.h"
+
 namespace nade {
 namespace {
 
@@ -79,6 +81,7 @@ FleshPoint attach(const HandPose& bind, const Vec3& position, JointWeights weigh
     sum += weights[joint];
     weights[joint] = 0.0;
   }
+  NADE_ASSERT(sum > 0.0);
   for (double& weight : point.weights) weight /= sum;
   return point;
 }

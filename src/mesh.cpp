@@ -7,6 +7,7 @@
 #include "mesh_normals.h"
 #include "mesh_topology.h"
 #include "nade/assert.h"
+#include "surface_query.h"
 #include "triangle_tree.h"
 
 // Based on: Baerentzen, Aanaes. Signed Distance Computation Using the Angle Weighted
@@ -250,10 +251,7 @@ Result<std::unique_ptr<MeshSurface>> MeshSurface::build(const TriangleSoup& soup
 }
 
 std::optional<RayHit> MeshSurface::first_hit(const Ray& ray) const noexcept {
-  if (!ray.origin.allFinite() || !ray.direction.allFinite() || !(ray.max_distance >= 0.0) ||
-      !(ray.direction.squaredNorm() > 0.0)) {
-    return std::nullopt;
-  }
+  if (!is_query(ray)) return std::nullopt;
   // A far origin is brought near along the ray, where floats are fine enough.
   double skipped = 0.0;
   const double to_centre = (impl_->centre - ray.origin).dot(ray.direction);
@@ -294,7 +292,7 @@ std::optional<RayHit> MeshSurface::first_hit(const Ray& ray) const noexcept {
 
 std::optional<SurfacePoint> MeshSurface::closest_point(const Vec3& query, double max_distance,
                                                        SurfaceHint& hint) const noexcept {
-  if (!query.allFinite() || !(max_distance >= 0.0)) return std::nullopt;
+  if (!is_query(query, max_distance)) return std::nullopt;
   // From very far, look from a nearer point in the same direction.
   Vec3 seen_from = query;
   constexpr double kFar = 1e4;

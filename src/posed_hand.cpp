@@ -24,19 +24,6 @@ constexpr std::array<Carrier, kJointCount> make_carriers() {
 }
 constexpr std::array<Carrier, kJointCount> kCarriers = make_carriers();
 
-BendRange range_of(const DigitChain& chain) {
-  const HingeRange base = range_of_motion(chain.digit, 0);
-  const HingeRange middle = range_of_motion(chain.digit, 1);
-  const HingeRange last = range_of_motion(chain.digit, 2);
-  const DigitFreedoms tracked = freedoms_of(chain.angles);
-  BendRange range;
-  range.low << base.abduction_min, base.flexion_min, middle.flexion_min, last.flexion_min;
-  range.high << base.abduction_max, base.flexion_max, middle.flexion_max, last.flexion_max;
-  range.low = (range.low - tracked).cwiseMin(0.0).eval();
-  range.high = (range.high - tracked).cwiseMax(0.0).eval();
-  return range;
-}
-
 /// The digit that moves a point most; kDigitCount where none does.
 std::size_t leading_digit(const FleshPoint& point) {
   std::array<double, kDigitCount + 1> shares{};
@@ -82,7 +69,9 @@ HandModel measure_model(const HandPose& tracked, double scale) noexcept {
   model.scale = scale;
   for (std::size_t d = 0; d < kDigitCount; ++d) {
     model.chains[d] = measure_chain(tracked, digit_at(d));
-    model.ranges[d] = range_of(model.chains[d]);
+    const BendRange range = bend_range(model.chains[d]);
+    const DigitFreedoms bent = freedoms_of(model.chains[d].angles);
+    model.ranges[d] = {range.low - bent, range.high - bent};
   }
   return model;
 }

@@ -8,18 +8,12 @@
 
 namespace nade {
 
-/// The movable angles' bounds, as changes of the tracked ones.
-struct BendRange {
-  DigitFreedoms low = DigitFreedoms::Zero();   ///< at most 0
-  DigitFreedoms high = DigitFreedoms::Zero();  ///< at least 0
-};
-
 /// A tracked hand as something that can be moved: wrist and digits.
 struct HandModel {
   HandPose tracked;
   double scale = 1.0;
   std::array<DigitChain, kDigitCount> chains{};
-  std::array<BendRange, kDigitCount> ranges{};  ///< a tracked angle out of range widens it
+  std::array<BendRange, kDigitCount> ranges{};  ///< `bend_range`, as changes of the tracked angles
 };
 [[nodiscard]] HandModel measure_model(const HandPose& tracked, double scale) noexcept;
 

@@ -217,6 +217,18 @@ DigitAngles with_freedoms(const DigitAngles& angles, const DigitFreedoms& freedo
   return result;
 }
 
+BendRange bend_range(const DigitChain& chain) noexcept {
+  const HingeRange base = range_of_motion(chain.digit, 0);
+  const HingeRange middle = range_of_motion(chain.digit, 1);
+  const HingeRange last = range_of_motion(chain.digit, 2);
+  const DigitFreedoms tracked = freedoms_of(chain.angles);
+  const DigitFreedoms low(base.abduction_min, base.flexion_min, middle.flexion_min,
+                          last.flexion_min);
+  const DigitFreedoms high(base.abduction_max, base.flexion_max, middle.flexion_max,
+                           last.flexion_max);
+  return {low.cwiseMin(tracked), high.cwiseMax(tracked)};
+}
+
 void set_digit(HandPose& hand, Digit digit, const DigitPose& pose) noexcept {
   for (std::size_t i = 0; i <= kHingeCount; ++i) hand[hinge_joint(digit, i)] = pose[i];
 }

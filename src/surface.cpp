@@ -3,18 +3,10 @@
 #include <cmath>
 
 #include "nade/assert.h"
+#include "surface_query.h"
 
 namespace nade {
 namespace {
-
-bool is_query(const Ray& ray) {
-  return ray.origin.allFinite() && ray.direction.allFinite() && ray.max_distance >= 0.0 &&
-         ray.direction.squaredNorm() > 0.0;
-}
-
-bool is_query(const Vec3& query, double max_distance) {
-  return query.allFinite() && max_distance >= 0.0;
-}
 
 RayHit hit_at(const Ray& ray, double distance, const Vec3& point, const Vec3& normal) {
   return {distance, point, normal, normal.dot(ray.direction) > 0.0};

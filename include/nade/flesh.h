@@ -41,7 +41,8 @@ inline constexpr std::size_t kMostSkinPoints = 1280;
 
 /// Cuts a hand mesh into pads. A part's pads are the skin around the point where the part's
 /// palmar axis leaves the flesh, as the metric `part_gap` has it. Of each pad only the points that
-/// stick out are kept; of a fine mesh, only vertices that lie far enough apart.
+/// stick out are kept; of a fine mesh, only vertices that lie far enough apart. Each vertex has
+/// some weight.
 [[nodiscard]] HandFlesh measure_flesh(const HandMesh& mesh);
 
 /// As `measure_flesh` gives for the generic hand, the left the mirror image of the right: for

@@ -102,6 +102,14 @@ struct PosedDigit {
 [[nodiscard]] DigitAngles with_freedoms(const DigitAngles& angles,
                                         const DigitFreedoms& freedoms) noexcept;
 
+/// Bounds of a digit's movable angles.
+struct BendRange {
+  DigitFreedoms low = DigitFreedoms::Zero();
+  DigitFreedoms high = DigitFreedoms::Zero();
+};
+/// The range of motion; a tracked angle outside of it widens it to itself.
+[[nodiscard]] BendRange bend_range(const DigitChain& chain) noexcept;
+
 /// Writes a digit's joints into a hand.
 void set_digit(HandPose& hand, Digit digit, const DigitPose& pose) noexcept;
 

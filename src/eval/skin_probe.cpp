@@ -69,12 +69,11 @@ void SkinProbe::make_clusters(const std::vector<std::uint8_t>& patches) {
   std::vector<std::size_t> owner;
   const std::vector<std::size_t> middles = spread_middles(*mesh_, owner);
   for (std::size_t c = 0; c < middles.size(); ++c) {
-    Cluster cluster{vertices_.size(), 1, patches[middles[c]]};
-    vertices_.push_back({static_cast<std::uint32_t>(middles[c]), cluster.patches});
+    Cluster cluster{vertices_.size(), 1};
+    vertices_.push_back({static_cast<std::uint32_t>(middles[c]), patches[middles[c]]});
     for (std::size_t i = 0; i < owner.size(); ++i) {
       if (owner[i] != c || i == middles[c]) continue;
       vertices_.push_back({static_cast<std::uint32_t>(i), patches[i]});
-      cluster.patches |= patches[i];
       ++cluster.count;
     }
     clusters_.push_back(cluster);

@@ -47,7 +47,6 @@ class SkinProbe {
   struct Cluster {
     std::size_t first = 0;  ///< in vertices_: its middle
     std::size_t count = 0;
-    std::uint8_t patches = 0;  ///< of all its vertices
   };
   struct MiddleReading {
     const Cluster* cluster;
