@@ -328,12 +328,7 @@ void Settling::remember_contact() {
 
 void Settling::remember_frame(const HandPose& drawn) {
   const SettledFrame now{model_.tracked, drawn, correction_};
-  if (fresh_) {  // it did not come from anywhere
-    memory_.pace.fill(Vec3::Zero());
-    memory_.drift.fill(Vec3::Zero());
-  } else {
-    follow_pace(now, seconds_, memory_);
-  }
+  if (!fresh_) follow_pace(now, seconds_, memory_);
   memory_.before = fresh_ ? now.correction : memory_.last.correction;
   memory_.last = now;
   memory_.fresh = fresh_;

@@ -11,10 +11,7 @@ SettleMemory settle_memory(const HandFlesh& flesh) {
   SettleMemory memory;
   memory.pads.resize(flesh.pads.size());
   memory.rows.reserve(kMostContactRows);
-  memory.joints.fill(Vec3::Zero());  // Eigen's vectors begin with whatever was there
-  memory.velocity.fill(Vec3::Zero());
-  memory.pace.fill(Vec3::Zero());
-  memory.drift.fill(Vec3::Zero());
+  forget_frame(memory);  // Eigen's vectors begin with whatever was there
   memory.unrest = no_unrest();
   return memory;
 }
@@ -33,8 +30,9 @@ void forget_frame(SettleMemory& memory) noexcept {
   forget_slide(memory);
   memory.last_inside = 0;
   memory.geometric.setZero();
-  memory.velocity.fill(Vec3::Zero());
-  memory.joints.fill(Vec3::Zero());
+  for (JointVectors* vectors : {&memory.velocity, &memory.pace, &memory.drift, &memory.joints}) {
+    vectors->fill(Vec3::Zero());
+  }
   memory.travel_m = memory.way_m = memory.rest = memory.height_m = memory.nearest_m =
       memory.deepest_m = memory.strike_mps = memory.clear_s = memory.stuck_s = memory.return_share =
           0.0;

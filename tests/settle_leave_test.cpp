@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <functional>
-#include <memory>
 #include <vector>
 
 #include "nade/corrector.h"
-#include "nade/mesh.h"
 #include "support/hand_checks.h"
 #include "support/meshes.h"
 #include "support/pressed_hand.h"
@@ -16,16 +14,11 @@
 namespace nade {
 namespace {
 
+using test::block;
 using test::kFrame_ns;
 using test::lowest_skin;
 using test::pressed_hand;
 using test::settling;
-
-/// Its top at y = 0.
-std::unique_ptr<MeshSurface> block(const test::Vec3f& half_size) {
-  const test::Vec3f middle(0.0F, -half_size.y(), 0.0F);
-  return MeshSurface::build(test::shifted(test::box_mesh(half_size), middle), "block").value();
-}
 
 /// The share of a second from `from_s` on, both 0 to 1.
 double gone(int frame, double from_s) { return std::clamp(frame / 90.0 - from_s, 0.0, 1.0); }

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "nade/corrector.h"
-#include "nade/mesh.h"
 #include "support/hand_checks.h"
 #include "support/meshes.h"
 #include "support/pressed_hand.h"
@@ -21,9 +20,7 @@ using test::pressed_hand;
 TEST(SettleLift, AThumbBeforeAnEdgeComesOverIt) {
   constexpr int kDown = 60;
   constexpr int kWay = 170;
-  const test::Vec3f half_size{0.16F, 0.0125F, 0.07F};
-  const TriangleSoup slab = test::shifted(test::box_mesh(half_size), {0.0F, -0.0125F, 0.0F});
-  const auto surface = MeshSurface::build(slab, "slab").value();
+  const auto surface = test::block({0.16F, 0.0125F, 0.07F});
   const Object object(*surface);
   for (const double depth_m : {0.015, 0.025}) {
     HandCorrector corrector(test::settling());

@@ -7,7 +7,6 @@
 
 #include "nade/corrector.h"
 #include "nade/flesh.h"
-#include "nade/mesh.h"
 #include "support/hand_checks.h"
 #include "support/meshes.h"
 #include "support/pressed_hand.h"
@@ -74,9 +73,8 @@ TEST(SettleStrike, AHandThatPatsRestsForAsLongAsThePersonPresses) {
 /// A slap goes right through a tabletop, and comes back from below. The drawn hand, sent off while
 /// the person's was still under the table, was up to 170 mm above it.
 TEST(SettleStrike, AHandThatSlapsThroughATableStaysOnIt) {
-  const auto top = MeshSurface::build(
-      test::shifted(test::box_mesh({0.4F, 0.01F, 0.4F}), {0.0F, -0.01F, 0.0F}), "table");
-  const Object table(**top);
+  const auto top = test::block({0.4F, 0.01F, 0.4F});
+  const Object table(*top);
   HandCorrector corrector(settling());
   for (int i = 0; i < 120; ++i) {
     const double down = std::clamp(i / 38.0, 0.0, 1.0);

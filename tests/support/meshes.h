@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <map>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -188,6 +189,12 @@ inline TriangleSoup turned_inside_out(TriangleSoup soup) {
 inline TriangleSoup shifted(TriangleSoup soup, const Vec3f& by) {
   for (Vec3f& vertex : soup.vertices) vertex += by;
   return soup;
+}
+
+/// A box whose top is at y = 0.
+inline std::unique_ptr<MeshSurface> block(const Vec3f& half_size) {
+  const Vec3f middle(0.0F, -half_size.y(), 0.0F);
+  return MeshSurface::build(shifted(box_mesh(half_size), middle), "block").value();
 }
 
 /// The numbers of one list of lists, `exports.NAME=[[a,b,c],…]`.
