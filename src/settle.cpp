@@ -13,6 +13,7 @@
 #include "settle_lift.h"
 #include "settle_normal.h"
 #include "settle_pace.h"
+#include "settle_ride.h"
 #include "settle_slide.h"
 #include "settle_solver.h"
 #include "settle_springs.h"
@@ -41,8 +42,6 @@ constexpr double kPushTime_s = 0.20506;
 /// A hand that moves farther from one frame to the next, or whose object grows by so much under it,
 /// was lost and found: its pads would not see from so far how deep they are.
 constexpr double kTeleport_m = 0.1;
-/// So is one whose palm is deeper than this in an object of another shape.
-constexpr double kSwallowed_m = 0.04;
 constexpr double kShortestFrame_s = 0.001;
 constexpr double kLongestFrame_s = 0.05;
 
@@ -109,7 +108,6 @@ class Settling {
  private:
   void start();
   void find_motion();
-  [[nodiscard]] bool is_swallowed() const;
   void start_outside();
   void find_strengths();
   [[nodiscard]] Correction after(const HandFreedoms& step) const;
@@ -134,6 +132,7 @@ class Settling {
   double since_last_s_;  ///< as it is
   double seconds_;       ///< as it counts
 
+  bool deformed_ = false;  ///< whether the object has another shape or size than it had
   bool fresh_ = false;
   std::optional<Correction> let_go_from_;  ///< that it had when it was let go in this frame
   double motion_m_ = 0.0;                  ///< of the tracked hand since the last frame
@@ -160,29 +159,23 @@ void Settling::find_motion() {
   follow_velocity(*last.tracked, model_.tracked, seconds_, follow, memory_.velocity);
 }
 
-/// Whether an object that changed its shape has the drawn hand deep inside by that.
-bool Settling::is_swallowed() const {
-  if (object_.surface().shape() == memory_.shape) return false;
-  const Vec3& palm = memory_.last.drawn[Joint::palm].position;
-  SurfaceHint hint = memory_.under_palm;
-  const auto nearest = object_.closest_point(palm, kDeepest_m, hint);
-  return nearest && nearest->signed_distance < -kSwallowed_m;
-}
-
 void Settling::start() {
   const HandPose& tracked = model_.tracked;
+  deformed_ = object_.scale() != memory_.scale || object_.surface().shape() != memory_.shape;
+  if (deformed_ && memory_.last.tracked) ride_along(object_, memory_);
   find_motion();
   const double growth = std::abs(object_.scale() / memory_.scale - 1.0);
   const double grown_m = growth * tracked[Joint::palm].position.norm();
   search_.seconds = seconds_;
-  fresh_ = !memory_.last.tracked || !(motion_m_ + grown_m <= kTeleport_m) || is_swallowed();
+  fresh_ = !memory_.last.tracked || !(motion_m_ + grown_m <= kTeleport_m) ||
+           (deformed_ && is_swallowed(object_, memory_));
   if (!fresh_ && follow_leaving(search_, memory_)) {
     let_go_from_ = memory_.last.correction;
     fresh_ = true;
   }
   if (fresh_) {
     forget_frame(memory_);
-  } else if (object_.scale() != memory_.scale || object_.surface().shape() != memory_.shape) {
+  } else if (deformed_) {
     forget_planes(memory_);
   }
   search_.nearest_m = memory_.nearest_m;
@@ -332,6 +325,7 @@ void Settling::remember_frame(const HandPose& drawn) {
   memory_.before = fresh_ ? now.correction : memory_.last.correction;
   memory_.last = now;
   memory_.fresh = fresh_;
+  watch_surface(object_, deformed_ && !fresh_, seconds_, memory_);
   memory_.surface = &object_.surface();
   memory_.shape = object_.surface().shape();
   memory_.scale = object_.scale();

@@ -1,3 +1,5 @@
+#include <limits>
+
 #include "nade/assert.h"
 #include "nade/settle.h"
 #include "settle_slide.h"
@@ -37,6 +39,8 @@ void forget_frame(SettleMemory& memory) noexcept {
       memory.deepest_m = memory.strike_mps = memory.clear_s = memory.stuck_s = memory.return_share =
           0.0;
   memory.under_palm = memory.under_hand = memory.under_nearest = {};
+  memory.undeformed_s = std::numeric_limits<double>::infinity();
+  memory.watches.fill({});
   memory.pads.assign(memory.pads.size(), {});
   break_motion(memory.unrest);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -10,6 +11,7 @@
 #include "nade/io/object_file.h"
 #include "support/allocation_counter.h"
 #include "support/hand_checks.h"
+#include "support/meshes.h"
 #include "support/sample_hand.h"
 #include "support/sanitized.h"
 
@@ -153,7 +155,7 @@ TEST(MovingObject, AHandAtRestRidesOnWhatRisesTurnsAndGrows) {
     const Quat turn(Eigen::AngleAxisd(turn_rad, Vec3(0.3, 0.5, 0.8).normalized()));
     return Object(ball, {{{0.0, rise_m - 0.15 * scale, 0.0}, turn}, scale});
   };
-  const double round = 2.0 * 3.14159265358979 / 3.0;
+  const double round = 2.0 * std::numbers::pi / 3.0;
   for (const int which : {0, 1, 2}) {
     SCOPED_TRACE(which);
     const Rest rest = rest_on(top, 0.012, 3.0, [&](double time_s) {
@@ -170,6 +172,39 @@ TEST(MovingObject, AHandAtRestRidesOnWhatRisesTurnsAndGrows) {
     EXPECT_LT(rest.farthest_m, 0.002);
     EXPECT_LT(rest.fastest_m, 0.002);
   }
+}
+
+/// As on one that moves as a whole, though it is its shape that changes.
+TEST(MovingObject, AHandAtRestRidesOnWhatDeforms) {
+  const double round = 2.0 * std::numbers::pi;
+  const Pose top{{0.0, 0.0, 0.0}, Quat::Identity()};
+  TriangleSoup block = test::box_mesh({0.2F, 0.1F, 0.15F});
+  const auto surface = MeshSurface::build(block, "block").value();
+  for (const bool tilts : {false, true}) {
+    SCOPED_TRACE(tilts);
+    const Rest rest = rest_on(top, 0.015, 2.0, [&](double time_s) {
+      const double rise_m = 0.02 * std::sin(round * time_s);
+      for (Eigen::Vector3f& corner : block.vertices) {
+        if (corner.y() < 0.0F) continue;
+        corner.y() = static_cast<float>(0.1 + rise_m * (tilts ? -corner.z() / 0.1 : 1.0));
+      }
+      surface->refit(block.vertices);
+      return Object(*surface, {{{0.0, -0.1, 0.0}, Quat::Identity()}, 1.0});
+    });
+    EXPECT_LT(rest.deepest_m, 0.001);
+    EXPECT_LT(rest.farthest_m, 0.001);
+  }
+}
+
+TEST(MovingObject, AHandAtRestRidesOnABallThatGrowsAndShrinks) {
+  const SphereSurface ball(0.15);
+  const Pose top{{0.0, 0.0, 0.0}, Quat::Identity()};
+  const Rest rest = rest_on(top, 0.015, 1.0, [&](double time_s) {
+    const double scale = 1.25 - 0.25 * std::cos(2.0 * std::numbers::pi * time_s);
+    return Object(ball, {{{0.0, -0.15, 0.0}, Quat::Identity()}, scale});
+  });
+  EXPECT_LT(rest.deepest_m, 0.001);
+  EXPECT_LT(rest.farthest_m, 0.001);
 }
 
 /// Together they may go and turn as they like: the drawn hand lies on the object as it does on one

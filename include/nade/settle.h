@@ -120,6 +120,13 @@ struct Unrest {
 /// Each finger's middle and last flexion together, radians; 0 for the thumb.
 using FingerCurls = std::array<double, kDigitCount>;
 
+/// What was seen of a deforming surface near a joint of the drawn hand.
+struct SurfaceWatch {
+  SurfaceHint hint;
+  std::optional<SurfacePoint> before;  ///< in the last frame's shape
+};
+inline constexpr std::size_t kSurfaceWatches = 7;
+
 /// What settle_hand remembers of a hand from frame to frame, and room to work in. All of it is in
 /// the object's frame, and in the world's lengths; but the hand's unrest is as seen from `home`.
 /// A copy would lack that room: it can only be moved.
@@ -138,6 +145,7 @@ struct SettleMemory {
   const Surface* surface = nullptr;  ///< the last frame's; only its address counts
   std::uint64_t shape = 0;           ///< the surface's, in the last frame
   double scale = 1.0;                ///< and the object's
+  double undeformed_s = 0.0;         ///< how long both have been the same
   Vec3 push = Vec3::Zero();          ///< unit, the way the object pushes; zero in the air
   double height_m = 0.0;             ///< of the drawn hand over the tracked one along `push`
   double nearest_m = 0.0;            ///< from the drawn skin that is nearest to the surface to it
@@ -159,6 +167,7 @@ struct SettleMemory {
   FingerCurls curl_at_touch{};                    ///< of the tracked hand; in the air, now
   HandFreedoms geometric = HandFreedoms::Zero();  ///< stiffness, of the last round's contacts
   std::array<double, kPulls> pulls{};  ///< times the full pull on a calm hand, in the last frame
+  std::array<SurfaceWatch, kSurfaceWatches> watches;  ///< while the object deforms
   std::vector<PadMemory> pads;
   std::vector<ContactRow> rows;
   JointVectors velocity{};  ///< of the tracked joints against the object, smoothed, m/s

@@ -1,0 +1,89 @@
+#include "settle_ride.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "ramps.h"
+#include "touch_finder.h"
+
+namespace nade {
+namespace {
+
+/// Where the surface is watched: under these joints.
+constexpr std::array<Joint, kSurfaceWatches> kWatched{
+    Joint::palm,       Joint::wrist,    Joint::thumb_tip, Joint::index_tip,
+    Joint::middle_tip, Joint::ring_tip, Joint::little_tip};
+/// A joint so near rests on the surface, and one so far is not touched by what it does.
+constexpr double kRests_m = 0.03;
+constexpr double kBeyond_m = 0.06;
+/// An animation may have fewer frames than the hand: one that deformed no longer ago still does.
+constexpr double kDeforming_s = 0.25;
+/// What was watched is gone if the surface's normal turned so far: the cosine.
+constexpr double kSameSurface = 0.5;
+/// A turn weighs as much as a shift by what it moves so far from the palm.
+constexpr double kTurnArm_m = 0.1;
+/// What the surface leaves open, as how it goes along itself, is as little as can be.
+constexpr double kLeftOpen = 0.01;
+
+/// A hand whose palm is deeper than this in what deformed was swallowed.
+constexpr double kSwallowed_m = 0.04;
+
+using SurfaceMotion = Eigen::Matrix<double, 6, 1>;  // shift, and turn times kTurnArm_m
+
+/// How the watched surface moved, about the drawn palm.
+SurfaceMotion motion_under_hand(const ScaledSurface& object, SettleMemory& memory) {
+  const HandPose& drawn = memory.last.drawn;
+  Eigen::Matrix<double, 6, 6> stiffness = kLeftOpen * Eigen::Matrix<double, 6, 6>::Identity();
+  SurfaceMotion force = SurfaceMotion::Zero();
+  for (std::size_t i = 0; i < kSurfaceWatches; ++i) {
+    SurfaceWatch& watch = memory.watches[i];
+    if (!watch.before) continue;
+    const Vec3& joint = drawn[kWatched[i]].position;
+    const auto now = object.closest_point(joint, kBeyond_m, watch.hint);
+    if (!now || now->normal.dot(watch.before->normal) < kSameSurface) continue;
+    const Vec3 normal = (watch.before->normal + now->normal).normalized();
+    const Vec3 lever = joint - drawn[Joint::palm].position;
+    SurfaceMotion row;
+    row << normal, lever.cross(normal) / kTurnArm_m;
+    const double nearer_m = std::min(now->signed_distance, watch.before->signed_distance);
+    const double weight = smoothstep(kBeyond_m, kRests_m, nearer_m);
+    const double rise_m = watch.before->signed_distance - now->signed_distance;
+    stiffness += weight * row * row.transpose();
+    force += weight * rise_m * row;
+  }
+  return stiffness.ldlt().solve(force);
+}
+
+}  // namespace
+
+void ride_along(const ScaledSurface& object, SettleMemory& memory) noexcept {
+  const SurfaceMotion motion = motion_under_hand(object, memory);
+  const Vec3 middle = memory.last.drawn[Joint::palm].position;
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    Vec3& drawn = memory.last.drawn.joints[i].position;
+    const Vec3 way = motion.head<3>() + motion.tail<3>().cross(drawn - middle) / kTurnArm_m;
+    drawn += way;
+    memory.last.tracked->joints[i].position += way;
+  }
+}
+
+bool is_swallowed(const ScaledSurface& object, const SettleMemory& memory) noexcept {
+  const Vec3& palm = memory.last.drawn[Joint::palm].position;
+  SurfaceHint hint = memory.under_palm;
+  const auto nearest = object.closest_point(palm, kDeepest_m, hint);
+  return nearest && nearest->signed_distance < -kSwallowed_m;
+}
+
+void watch_surface(const ScaledSurface& object, bool deformed, double seconds,
+                   SettleMemory& memory) noexcept {
+  memory.undeformed_s = deformed ? 0.0 : memory.undeformed_s + seconds;
+  for (std::size_t i = 0; i < kSurfaceWatches; ++i) {
+    SurfaceWatch& watch = memory.watches[i];
+    watch.before.reset();
+    if (memory.undeformed_s > kDeforming_s) continue;
+    const Vec3& joint = memory.last.drawn[kWatched[i]].position;
+    watch.before = object.closest_point(joint, kBeyond_m, watch.hint);
+  }
+}
+
+}  // namespace nade
