@@ -82,20 +82,46 @@ Vec3 middle_of_wandering(test::Random& random, const Object& object) {
   return random.below(2) == 0 && nearest ? nearest->point : middle;
 }
 
+/// How an object goes to and fro, turns and breathes; in half of the trials not at all.
+struct Wandering {
+  Placement middle;
+  Vec3 way = Vec3::Zero();
+  Vec3 turn = Vec3::Zero();  ///< about this, by its length
+  double growth = 0.0;
+  double speed = 0.0;
+
+  [[nodiscard]] Placement in(int frame) const {
+    const double swing = std::sin(speed * frame);
+    Placement placement = middle;
+    placement.pose.position += swing * way;
+    placement.pose.rotation =
+        Quat(Eigen::AngleAxisd(swing * turn.norm(), turn.normalized())) * middle.pose.rotation;
+    placement.scale *= 1.0 + growth * swing;
+    return placement;
+  }
+};
+
+Wandering random_wandering(test::Random& random, const Placement& middle) {
+  Wandering object{middle, Vec3::Zero(), Vec3::Zero(), 0.0, 0.0};
+  if (random.below(2) == 0) return object;
+  object.way = random.uniform(0.0, 0.1) * random.direction();
+  object.turn = random.uniform(0.0, 1.0) * random.direction();
+  object.growth = random.uniform(0.0, 0.3);
+  object.speed = random.uniform(0.01, 0.2);
+  return object;
+}
+
 /// One hand that wanders through one object, three times over: as it is, in the mirror, and moved
 /// together with the object.
 void expect_properties(test::Random& random) {
   const TestSurface surface = random_surface(random);
-  const double scale = random.uniform(0.7, 1.4);
   const Placement placement{{random.point({-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}), random.rotation()},
-                            scale};
+                            random.uniform(0.7, 1.4)};
   const Pose motion{random.point({-2.0, -2.0, -2.0}, {2.0, 2.0, 2.0}), random.rotation()};
-  const Object here(*surface.surface, placement);
-  const Object there(*surface.surface, {motion * placement.pose, scale});
-  const Object in_mirror(*surface.surface, mirrored(placement));
+  const Wandering wandering = random_wandering(random, placement);
   const HandPose hand = random_hand(random);
   const Quat turn = random.rotation();
-  const Vec3 middle = middle_of_wandering(random, here);
+  const Vec3 middle = middle_of_wandering(random, Object(*surface.surface, placement));
   const Vec3 roll = random.direction();
   const double reach_m = random.uniform(0.005, 0.2);
   const double speed = random.uniform(0.01, 0.2);
@@ -110,6 +136,10 @@ void expect_properties(test::Random& random) {
                     reach_m * std::sin(0.7 * speed * i));
     const Quat rolled(Eigen::AngleAxisd(0.3 * std::sin(0.4 * speed * i), roll));
     const HandPose tracked = test::placed_hand(hand, middle + palm, rolled * turn);
+    const Placement now = wandering.in(i);
+    const Object here(*surface.surface, now);
+    const Object there(*surface.surface, {motion * now.pose, now.scale});
+    const Object in_mirror(*surface.surface, mirrored(now));
     const CorrectedHand& corrected = corrector.update(tracked, here, time_ns);
     const HandPose drawn = corrected.pose;
     SCOPED_TRACE(testing::Message() << surface.name << ", frame " << i);
@@ -125,9 +155,10 @@ void expect_properties(test::Random& random) {
     const HandPose mirror_drawn = other_side.update(mirrored(tracked), in_mirror, time_ns).pose;
     ASSERT_LT(largest_motion(drawn, mirrored(mirror_drawn)), kSame_m);
   }
+  if (surface.name == "plane") return;
+  const Object here(*surface.surface, wandering.in(kFramesPerTrial));
   const HandPose away =
       test::placed_hand(hand, here.placement().pose.position + Vec3(0.0, 3.0, 0.0), turn);
-  if (surface.name == "plane") return;
   corrector.update(away, here, time_ns + 1'000'000'000);
   EXPECT_TRUE(test::same_bits(away, corrector.update(away, here, time_ns + 2'000'000'000).pose));
 }
