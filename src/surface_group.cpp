@@ -1,0 +1,71 @@
+#include "nade/surface_group.h"
+
+#include <utility>
+
+#include "nade/assert.h"
+#include "surface_query.h"
+
+namespace nade {
+namespace {
+
+// A hint says which member was the nearest, in its first byte, and that one's element.
+constexpr std::uint32_t kElementBits = 24;
+constexpr std::uint32_t kNoElement = (1U << kElementBits) - 1U;
+
+SurfaceHint hint_of(std::size_t member, SurfaceHint group) {
+  if (group.element >> kElementBits != member) return {};
+  const std::uint32_t element = group.element & kNoElement;
+  return {element == kNoElement ? SurfaceHint::kNone : element};
+}
+
+SurfaceHint group_hint(std::size_t member, SurfaceHint its) {
+  const std::uint32_t element = its.element < kNoElement ? its.element : kNoElement;
+  return {static_cast<std::uint32_t>(member) << kElementBits | element};
+}
+
+}  // namespace
+
+SurfaceGroup::SurfaceGroup(std::vector<Object> members) : members_(std::move(members)) {
+  NADE_ASSERT(members_.size() <= kMostMembers);
+}
+
+void SurfaceGroup::place(std::size_t member, const Placement& placement) noexcept {
+  NADE_ASSERT(member < members_.size());
+  members_[member] = Object(members_[member].surface(), placement);
+  ++moves_;
+}
+
+std::optional<RayHit> SurfaceGroup::first_hit(const Ray& ray) const noexcept {
+  std::optional<RayHit> first;
+  if (!is_query(ray)) return first;
+  for (const Object& member : members_) {
+    const double reach = first ? first->distance : ray.max_distance;
+    const auto hit = member.first_hit({ray.origin, ray.direction, reach});
+    if (hit && (!first || hit->distance < first->distance)) first = hit;
+  }
+  return first;
+}
+
+std::optional<SurfacePoint> SurfaceGroup::closest_point(const Vec3& query, double max_distance,
+                                                        SurfaceHint& hint) const noexcept {
+  std::optional<SurfacePoint> deepest;
+  if (!is_query(query, max_distance)) return deepest;
+  const SurfaceHint before = hint;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    SurfaceHint its = hint_of(i, before);
+    const auto found = members_[i].closest_point(query, max_distance, its);
+    if (!found || (deepest && found->signed_distance >= deepest->signed_distance)) continue;
+    deepest = found;
+    hint = group_hint(i, its);
+  }
+  return deepest;
+}
+
+/// Numbers of meshes only grow.
+std::uint64_t SurfaceGroup::shape() const noexcept {
+  std::uint64_t sum = moves_;
+  for (const Object& member : members_) sum += member.surface().shape();
+  return sum;
+}
+
+}  // namespace nade
