@@ -133,6 +133,7 @@ class Settling {
   double seconds_;       ///< as it counts
 
   bool deformed_ = false;  ///< whether the object has another shape or size than it had
+  bool jumped_ = false;    ///< whether the tracked hand did
   bool fresh_ = false;
   std::optional<Correction> let_go_from_;  ///< that it had when it was let go in this frame
   double motion_m_ = 0.0;                  ///< of the tracked hand since the last frame
@@ -155,6 +156,8 @@ void Settling::find_motion() {
   motion_m_ = largest_motion(*last.tracked, model_.tracked);
   memory_.way_m += motion_m_;
   follow_rest(motion_m_, seconds_, memory_.rest);
+  jumped_ = has_jumped(model_.tracked, seconds_, memory_);
+  if (jumped_) return;
   const double follow = memory_.fresh ? 1.0 : followed(seconds_, kVelocityTime_s);
   follow_velocity(*last.tracked, model_.tracked, seconds_, follow, memory_.velocity);
 }
@@ -183,7 +186,8 @@ void Settling::start() {
   search_.sink_m = options_.softness_m * followed(memory_.height_m, options_.softness_depth_m);
   push_ = memory_.push;
   correction_ = memory_.last.correction;
-  search_.row_reach_m = fresh_ ? kDeepest_m : kRowReach_m + kRowReachOfMotion * motion_m_;
+  const double reach_of_motion = jumped_ ? 1.0 : kRowReachOfMotion;
+  search_.row_reach_m = fresh_ ? kDeepest_m : kRowReach_m + reach_of_motion * motion_m_;
   if (fresh_) start_outside();
   search_.push = push_;
   normal_ = normal_under_palm(object_, tracked[Joint::palm], push_, motion_m_, seconds_, memory_);
@@ -194,13 +198,14 @@ void Settling::start() {
   last_.palm.shift += follow_lag(seconds_, memory_);
   search_.velocity = memory_.velocity;
   if (fresh_) return;
-  // Most often it goes on as it went: then the surface needs to be looked at only once.
-  correction_ = after(step_between(memory_.before, memory_.last.correction, search_.frame));
   search_.before = pose_flesh(memory_.last.drawn, model_.scale);
   search_.speed_mps = motion_m_ / seconds_;
+  farthest_m_ = farthest_way();
+  if (jumped_) return;
   follow_strike(*memory_.last.tracked, tracked, normal_, seconds_, memory_.strike_mps);
   coasted_ = coasted_joints(memory_, tracked, normal_, seconds_);
-  farthest_m_ = farthest_way();
+  // Most often it goes on as it went: then the surface needs to be looked at only once.
+  correction_ = after(step_between(memory_.before, memory_.last.correction, search_.frame));
 }
 
 /// How strongly the object may draw this hand.
@@ -248,7 +253,8 @@ SettleProblem Settling::problem_at(const PosedHand& posed, int round) const {
     problem.springs.add((in_air ? damping_in_air() : damping(away, memory_.height_m)) / seconds_,
                         -changed);
     const double inertia = in_air ? kInertiaInAir : kInertia;
-    add_inertia(coasted_, inertia / (seconds_ * seconds_), posed, search_.frame, problem.springs);
+    if (!jumped_)
+      add_inertia(coasted_, inertia / (seconds_ * seconds_), posed, search_.frame, problem.springs);
   }
 
   problem.range.low.setConstant(-1.0);
@@ -321,7 +327,7 @@ void Settling::remember_contact() {
 
 void Settling::remember_frame(const HandPose& drawn) {
   const SettledFrame now{model_.tracked, drawn, correction_};
-  if (!fresh_) follow_pace(now, seconds_, memory_);
+  if (!fresh_) follow_pace(now, seconds_, jumped_, memory_);
   memory_.before = fresh_ ? now.correction : memory_.last.correction;
   memory_.last = now;
   memory_.fresh = fresh_;

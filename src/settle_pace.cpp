@@ -48,6 +48,17 @@ constexpr double kSurelyDeep_m = 0.04;
 constexpr double kStill_mps = 0.1;
 constexpr double kNotStill_mps = 0.4;
 
+/// No hand accelerates more, m/s^2; and so much faster or slower a tracker's errors make it.
+constexpr double kMostAcceleration = 150.0;
+constexpr double kTrackersError_mps = 0.45;
+
+/// A tracked joint's velocity in the last frame.
+Vec3 velocity_before(const SettleMemory& memory, std::size_t joint) {
+  return memory.pace[joint] - memory.drift[joint];
+}
+
+double most_change(double seconds) { return kTrackersError_mps + kMostAcceleration * seconds; }
+
 /// From a tracked joint to the drawn one.
 Vec3 offset_of(const SettledFrame& frame, std::size_t joint) {
   return frame.drawn.joints[joint].position - frame.tracked->joints[joint].position;
@@ -108,11 +119,27 @@ void follow_strike(const HandPose& from, const HandPose& to, const Vec3& normal,
   }
 }
 
-void follow_pace(const SettledFrame& now, double seconds, SettleMemory& memory) noexcept {
+bool has_jumped(const HandPose& tracked, double seconds, const SettleMemory& memory) noexcept {
+  const HandPose& before = *memory.last.tracked;
+  for (const Joint joint : {Joint::wrist, Joint::middle_proximal}) {  // of the hand itself
+    const Vec3 velocity = (tracked[joint].position - before[joint].position) / seconds;
+    const Vec3 change = velocity - velocity_before(memory, index_of(joint));
+    if (change.norm() > most_change(seconds)) return true;
+  }
+  return false;
+}
+
+void follow_pace(const SettledFrame& now, double seconds, bool jumped,
+                 SettleMemory& memory) noexcept {
   const SettledFrame& before = memory.last;
   for (std::size_t i = 0; i < kJointCount; ++i) {
+    const Vec3 last = velocity_before(memory, i);
     memory.pace[i] = (now.drawn.joints[i].position - before.drawn.joints[i].position) / seconds;
     memory.drift[i] = (offset_of(now, i) - offset_of(before, i)) / seconds;
+    if (!jumped) continue;
+    const Vec3 change = velocity_before(memory, i) - last;
+    memory.pace[i] = last + std::min(1.0, most_change(seconds) / change.norm()) * change;
+    memory.drift[i].setZero();
   }
 }
 

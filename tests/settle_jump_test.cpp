@@ -1,0 +1,101 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "nade/corrector.h"
+#include "support/hand_checks.h"
+#include "support/pressed_hand.h"
+#include "support/random.h"
+
+// A tracker that takes the hand elsewhere for a frame, as trackers do.
+
+namespace nade {
+namespace {
+
+using test::kFrame_ns;
+using test::lowest_skin;
+
+HandPose shifted(const HandPose& hand, const Vec3& way) {
+  return moved(hand, {way, Quat::Identity()});
+}
+
+/// What became of a hand at rest `depth_m` deep whose tracker errs by `error` in one frame.
+struct Glitch {
+  double deepest_m = 0.0;  ///< of the drawn skin in the object, from then on
+  double fastest_m = 0.0;  ///< of the drawn hand in a frame, from the second after it on
+  double away_m = 0.0;     ///< from the hand that is drawn without it, five frames after
+};
+
+Glitch glitch_of(const Object& object, double depth_m, const Vec3& error) {
+  constexpr int kWhen = 120;
+  HandCorrector misled(test::settling());
+  HandCorrector sure(test::settling());
+  Glitch glitch;
+  HandPose before;
+  for (int i = 0; i < kWhen + 60; ++i) {
+    const HandPose hand = test::on_the_way_down(i, 60, depth_m);
+    const HandPose rests = sure.update(hand, object, i * kFrame_ns).pose;
+    const HandPose seen = i == kWhen ? shifted(hand, error) : hand;
+    const HandPose drawn = misled.update(seen, object, i * kFrame_ns).pose;
+    if (i >= kWhen) glitch.deepest_m = std::max(glitch.deepest_m, -lowest_skin(drawn, object, 0.1));
+    if (i > kWhen + 1) glitch.fastest_m = std::max(glitch.fastest_m, largest_motion(before, drawn));
+    if (i == kWhen + 5) glitch.away_m = largest_motion(rests, drawn);
+    before = drawn;
+  }
+  return glitch;
+}
+
+/// Up by 60 mm for a frame, and the hand was thrown 54 mm into the table; down, and it was 48 mm
+/// over it and took a second to come back.
+TEST(SettleJump, AHandWhoseTrackerErrsForAFrameIsSoonWhereItWas) {
+  for (const bool flat : {true, false}) {
+    for (const double depth_m : {0.005, 0.02}) {
+      for (const Vec3& error : {Vec3(0.0, 0.06, 0.0), Vec3(0.0, -0.06, 0.0), Vec3(0.06, 0.0, 0.0),
+                                Vec3(0.0, 0.03, 0.03), Vec3(-0.02, -0.04, 0.0)}) {
+        SCOPED_TRACE(testing::Message() << (flat ? "plane" : "ball") << ", " << depth_m
+                                        << " m deep, " << error.transpose());
+        const Glitch glitch = glitch_of(flat ? test::plane() : test::ball(), depth_m, error);
+        EXPECT_LT(glitch.deepest_m, 0.001);
+        EXPECT_LT(glitch.fastest_m, 0.002);
+        EXPECT_LT(glitch.away_m, 0.025);
+      }
+    }
+  }
+}
+
+/// At 120 Hz, of a hand that strokes a ball: it was drawn 79 mm deep in it, and 79 mm off its way
+/// in the mean.
+TEST(SettleJump, AHandStrokesOnThroughATrackersErrors) {
+  constexpr double kRate = 120.0;
+  const Object ball = test::ball();
+  HandCorrector misled(test::settling());
+  HandCorrector sure(test::settling());
+  test::Random random;
+  SCOPED_TRACE("NADE_TEST_SEED=" + std::to_string(test::seed()));
+  double deepest_m = 0.0;
+  double away_m = 0.0;
+  int frames = 0;
+  for (int i = 0; i < 20 * kRate; ++i) {
+    const double time_s = i / kRate;
+    const HandPose hand =
+        test::pressed_hand(0.012 - 0.02 * std::sin(0.7 * time_s), 0.0,
+                           {0.06 * std::sin(1.3 * time_s), 0.0, 0.04 * std::sin(2.1 * time_s)});
+    const auto time_ns = std::llround(1e9 * time_s);
+    const HandPose strokes = sure.update(hand, ball, time_ns).pose;
+    const Vec3 error = random.uniform(0.01, 0.09) * random.direction();
+    const bool errs = i > kRate && random.below(200) == 0;
+    const HandPose drawn = misled.update(errs ? shifted(hand, error) : hand, ball, time_ns).pose;
+    if (i < kRate) continue;
+    deepest_m = std::max(deepest_m, -lowest_skin(drawn, ball, 0.1));
+    if (errs) continue;
+    away_m += largest_motion(strokes, drawn);
+    ++frames;
+  }
+  EXPECT_LT(deepest_m, 0.003);
+  EXPECT_LT(away_m / frames, 0.02);
+}
+
+}  // namespace
+}  // namespace nade
