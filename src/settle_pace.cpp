@@ -48,16 +48,18 @@ constexpr double kSurelyDeep_m = 0.04;
 constexpr double kStill_mps = 0.1;
 constexpr double kNotStill_mps = 0.4;
 
-/// No hand accelerates more, m/s^2; and so much faster or slower a tracker's errors make it.
+/// No hand accelerates more, m/s^2; and a tracker is wont to err by so much.
 constexpr double kMostAcceleration = 150.0;
-constexpr double kTrackersError_mps = 0.45;
+constexpr double kTrackersError_m = 0.005;
 
 /// A tracked joint's velocity in the last frame.
 Vec3 velocity_before(const SettleMemory& memory, std::size_t joint) {
   return memory.pace[joint] - memory.drift[joint];
 }
 
-double most_change(double seconds) { return kTrackersError_mps + kMostAcceleration * seconds; }
+double most_change(double seconds) {
+  return kMostAcceleration * seconds + kTrackersError_m / seconds;
+}
 
 /// From a tracked joint to the drawn one.
 Vec3 offset_of(const SettledFrame& frame, std::size_t joint) {
