@@ -9,6 +9,7 @@
 #include "settle_fold.h"
 #include "settle_forces.h"
 #include "settle_frame.h"
+#include "settle_jump.h"
 #include "settle_leave.h"
 #include "settle_lift.h"
 #include "settle_normal.h"
@@ -156,7 +157,7 @@ void Settling::find_motion() {
   motion_m_ = largest_motion(*last.tracked, model_.tracked);
   memory_.way_m += motion_m_;
   follow_rest(motion_m_, seconds_, memory_.rest);
-  jumped_ = has_jumped(model_.tracked, seconds_, memory_);
+  jumped_ = follow_jumps(model_.tracked, seconds_, memory_);
   if (jumped_) return;
   const double follow = memory_.fresh ? 1.0 : followed(seconds_, kVelocityTime_s);
   follow_velocity(*last.tracked, model_.tracked, seconds_, follow, memory_.velocity);

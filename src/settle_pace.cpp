@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ramps.h"
+#include "settle_jump.h"
 #include "settle_leave.h"
 #include "settle_step.h"
 
@@ -47,19 +48,6 @@ constexpr double kDeep_m = 0.01;
 constexpr double kSurelyDeep_m = 0.04;
 constexpr double kStill_mps = 0.1;
 constexpr double kNotStill_mps = 0.4;
-
-/// No hand accelerates more, m/s^2; and a tracker is wont to err by so much.
-constexpr double kMostAcceleration = 150.0;
-constexpr double kTrackersError_m = 0.005;
-
-/// A tracked joint's velocity in the last frame.
-Vec3 velocity_before(const SettleMemory& memory, std::size_t joint) {
-  return memory.pace[joint] - memory.drift[joint];
-}
-
-double most_change(double seconds) {
-  return kMostAcceleration * seconds + kTrackersError_m / seconds;
-}
 
 /// From a tracked joint to the drawn one.
 Vec3 offset_of(const SettledFrame& frame, std::size_t joint) {
@@ -119,16 +107,6 @@ void follow_strike(const HandPose& from, const HandPose& to, const Vec3& normal,
     const double over_m = std::abs(normal.dot(way)) - along_surface(way, normal).norm();
     strike_mps = std::max(strike_mps, over_m / seconds);
   }
-}
-
-bool has_jumped(const HandPose& tracked, double seconds, const SettleMemory& memory) noexcept {
-  const HandPose& before = *memory.last.tracked;
-  for (const Joint joint : {Joint::wrist, Joint::middle_proximal}) {  // of the hand itself
-    const Vec3 velocity = (tracked[joint].position - before[joint].position) / seconds;
-    const Vec3 change = velocity - velocity_before(memory, index_of(joint));
-    if (change.norm() > most_change(seconds)) return true;
-  }
-  return false;
 }
 
 void follow_pace(const SettledFrame& now, double seconds, bool jumped,

@@ -33,11 +33,6 @@ void follow_velocity(const HandPose& from, const HandPose& to, double seconds, d
 void follow_strike(const HandPose& from, const HandPose& to, const Vec3& normal, double seconds,
                    double& strike_mps) noexcept;
 
-/// Whether the tracked hand changed its velocity since the last frame as no hand can: a tracker
-/// took it elsewhere, often for one frame.
-[[nodiscard]] bool has_jumped(const HandPose& tracked, double seconds,
-                              const SettleMemory& memory) noexcept;
-
 /// Takes in how the drawn joints went in a frame, and how they came away from the tracked ones; of
 /// a jump only as much as a hand can do.
 void follow_pace(const SettledFrame& now, double seconds, bool jumped,

@@ -127,7 +127,7 @@ class Descent {
   /// Where the slope along the direction is zero: it grows, piecewise linearly.
   [[nodiscard]] double best_length(const HandFreedoms& direction) const {
     constexpr double kFarthest = 2.0;
-    constexpr double kFlat = 1e-9;
+    constexpr double kNoSlope = 1e-9;
     const LineSlope springs{spring_slope().dot(direction),
                             direction.dot(problem_.springs.stiffness.times(direction))};
     double low = 0.0;
@@ -135,7 +135,7 @@ class Descent {
     double length = 1.0;
     for (int i = 0; i < kMostSearches; ++i) {
       const LineSlope at = slope_at(length, direction, springs);
-      if (std::abs(at.slope) <= kFlat * at.bend) break;
+      if (std::abs(at.slope) <= kNoSlope * at.bend) break;
       (at.slope < 0.0 ? low : high) = length;
       const double next = length - at.slope / at.bend;
       length = next > low && next < high ? next : 0.5 * (low + high);
