@@ -24,8 +24,9 @@ class SurfaceGroup final : public Surface {
 
   [[nodiscard]] std::span<const Object> members() const { return members_; }
 
-  /// Moves, turns or scales a member. A hand on it rides along. Does not allocate. Not while
-  /// another thread queries.
+  /// Moves, turns or scales a member. A hand on it rides along; while one moves, nothing of the
+  /// surface is remembered from frame to frame. Does not allocate. Not while another thread
+  /// queries.
   void place(std::size_t member, const Placement& placement) noexcept;
 
   [[nodiscard]] std::optional<RayHit> first_hit(const Ray& ray) const noexcept override;
