@@ -10,6 +10,8 @@ constexpr double kMostAcceleration = 150.0;
 constexpr double kTrackersError_m = 0.005;
 /// At the tips of the digits it may be so many times that.
 constexpr double kTipsMore = 1.5;
+/// Frames farther apart do not say how the hand went in between.
+constexpr double kFarApart_s = 0.045;
 /// A jump back comes so soon, to no farther from where the hand was than this.
 constexpr double kSoon_s = 0.1;
 constexpr double kThere_m = 0.04;
@@ -42,7 +44,7 @@ double most_change(double seconds) noexcept {
 bool follow_jumps(const HandPose& tracked, double seconds, SettleMemory& memory) noexcept {
   std::optional<FrameBeforeJump>& before = memory.before_jump;
   if (before && (before->ago_s += seconds) > kSoon_s) before.reset();
-  if (!has_jumped(tracked, seconds, memory)) return false;
+  if (!has_jumped(tracked, seconds, memory)) return seconds > kFarApart_s;
   if (before && largest_motion(before->tracked, tracked) < kThere_m) {
     memory.last.correction = before->correction;
     memory.carried = before->carried;

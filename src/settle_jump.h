@@ -12,8 +12,9 @@ namespace nade {
 /// By how much a hand may change its velocity in a frame of so many seconds, m/s.
 [[nodiscard]] double most_change(double seconds) noexcept;
 
-/// Whether the tracked hand jumped since the last frame: changed its velocity as no hand can. Where
-/// it jumps back, soon, to about where it was, the correction is again as it was there.
+/// Whether the tracked hand jumped since the last frame: changed its velocity as no hand can, or
+/// was not seen for so long that it may have. Where it jumps back, soon, to about where it was, the
+/// correction is again as it was there.
 [[nodiscard]] bool follow_jumps(const HandPose& tracked, double seconds,
                                 SettleMemory& memory) noexcept;
 

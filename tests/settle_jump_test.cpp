@@ -104,6 +104,21 @@ TEST(SettleJump, AHandOneOfWhoseFingersIsSeenCurledForAFrameStaysWhereItWas) {
   }
 }
 
+/// It was drawn 57 mm from the person's.
+TEST(SettleJump, AHandThatIsFoundHigherAfterAFewFramesIsDrawnThere) {
+  for (const bool flat : {true, false}) {
+    SCOPED_TRACE(flat ? "plane" : "ball");
+    const Object object = flat ? test::plane() : test::ball();
+    HandCorrector corrector(test::settling());
+    for (int i = 0; i < 120; ++i) {
+      corrector.update(test::on_the_way_down(i, 60, 0.02), object, i * kFrame_ns);
+    }
+    const HandPose found = shifted(test::pressed_hand(0.02), {0.0, 0.09, 0.0});
+    const HandPose drawn = corrector.update(found, object, 125 * kFrame_ns).pose;
+    EXPECT_LT(largest_motion(found, drawn), 0.025);
+  }
+}
+
 /// At 120 Hz, of a hand that strokes a ball: it was drawn 79 mm deep in it, and 79 mm off its way
 /// in the mean.
 TEST(SettleJump, AHandStrokesOnThroughATrackersErrors) {
