@@ -1,7 +1,6 @@
 #include "nade/mesh.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
 #include "mesh_normals.h"
@@ -124,12 +123,6 @@ Vec3 shading_normal(const SlotTriangle& triangle, const Vec3& weights) {
 
 /// What float arithmetic on squares of squares still holds, metres.
 constexpr float kLargest = 1e6F;
-
-/// Of all meshes, built and refitted: one that is built where another was is not taken for it.
-std::uint64_t new_shape() noexcept {
-  static std::atomic<std::uint64_t> shapes{0};
-  return ++shapes;
-}
 
 /// A little more, so that a bound includes what lies on it.
 float round_up(double value) { return static_cast<float>(value * (1.0 + 1e-6)) + 1e-18F; }

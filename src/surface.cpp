@@ -1,5 +1,6 @@
 #include "nade/surface.h"
 
+#include <atomic>
 #include <cmath>
 
 #include "nade/assert.h"
@@ -13,6 +14,11 @@ RayHit hit_at(const Ray& ray, double distance, const Vec3& point, const Vec3& no
 }
 
 }  // namespace
+
+std::uint64_t new_shape() noexcept {
+  static std::atomic<std::uint64_t> shapes{0};
+  return ++shapes;
+}
 
 std::optional<RayHit> PlaneSurface::first_hit(const Ray& ray) const noexcept {
   if (!is_query(ray) || ray.direction.y() == 0.0) return std::nullopt;

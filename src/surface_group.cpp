@@ -25,14 +25,15 @@ SurfaceHint group_hint(std::size_t member, SurfaceHint its) {
 
 }  // namespace
 
-SurfaceGroup::SurfaceGroup(std::vector<Object> members) : members_(std::move(members)) {
+SurfaceGroup::SurfaceGroup(std::vector<Object> members)
+    : members_(std::move(members)), placing_(new_shape()) {
   NADE_ASSERT(members_.size() <= kMostMembers);
 }
 
 void SurfaceGroup::place(std::size_t member, const Placement& placement) noexcept {
   NADE_ASSERT(member < members_.size());
   members_[member] = Object(members_[member].surface(), placement);
-  ++moves_;
+  placing_ = new_shape();
 }
 
 std::optional<RayHit> SurfaceGroup::first_hit(const Ray& ray) const noexcept {
@@ -61,11 +62,11 @@ std::optional<SurfacePoint> SurfaceGroup::closest_point(const Vec3& query, doubl
   return deepest;
 }
 
-/// Numbers of meshes only grow.
 std::uint64_t SurfaceGroup::shape() const noexcept {
-  std::uint64_t sum = moves_;
-  for (const Object& member : members_) sum += member.surface().shape();
-  return sum;
+  constexpr std::uint64_t kMix = 0x9e3779b97f4a7c15;  // odd, so that no member's is lost
+  std::uint64_t mixed = placing_;
+  for (const Object& member : members_) mixed = kMix * mixed + member.surface().shape();
+  return mixed;
 }
 
 }  // namespace nade

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "nade/surface.h"
 
 namespace nade {
@@ -12,5 +14,8 @@ namespace nade {
 [[nodiscard]] inline bool is_query(const Vec3& query, double max_distance) {
   return query.allFinite() && max_distance >= 0.0;
 }
+
+/// A `Surface::shape` that none had before: what is built where another was is not taken for it.
+[[nodiscard]] std::uint64_t new_shape() noexcept;
 
 }  // namespace nade

@@ -82,6 +82,15 @@ TEST(SurfaceGroup, HasAnotherShapeWhenAMemberMovesOrDeforms) {
   EXPECT_NE(group.shape(), moved);
 }
 
+/// As a program that gathers what is near builds it in each frame.
+TEST(SurfaceGroup, HasAnotherShapeThanTheOneThatWasInItsPlace) {
+  const auto top = table();
+  SurfaceGroup group({Object(*top)});
+  const auto before = group.shape();
+  group = SurfaceGroup({Object(*top, upright({0.0, 0.02, 0.0}))});
+  EXPECT_NE(group.shape(), before);
+}
+
 /// Two tables that meet under the hand are one.
 TEST(SurfaceGroup, AHandSlidesFromOneObjectToTheNext) {
   const auto half = table();

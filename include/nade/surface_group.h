@@ -36,7 +36,7 @@ class SurfaceGroup final : public Surface {
 
  private:
   std::vector<Object> members_;
-  std::uint64_t moves_ = 0;
+  std::uint64_t placing_;  ///< another number whenever one is placed
 };
 
 }  // namespace nade
