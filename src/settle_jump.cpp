@@ -16,30 +16,37 @@ constexpr double kFarApart_s = 0.045;
 constexpr double kSoon_s = 0.1;
 constexpr double kThere_m = 0.04;
 
+/// A tracked joint's in the last frame, m/s.
+Vec3 velocity_before(const SettleMemory& memory, std::size_t joint) {
+  return memory.pace[joint] - memory.drift[joint];
+}
+
+/// And by how much it is another now.
+Vec3 change_of_velocity(const HandPose& tracked, std::size_t joint, double seconds,
+                        const SettleMemory& memory) {
+  const Vec3& before = memory.last.tracked->joints[joint].position;
+  return (tracked.joints[joint].position - before) / seconds - velocity_before(memory, joint);
+}
+
+double most_change(double seconds) {
+  return kMostAcceleration * seconds + kTrackersError_m / seconds;
+}
+
 bool has_jumped(const HandPose& tracked, double seconds, const SettleMemory& memory) {
-  const auto change_mps = [&](Joint joint) {
-    const Vec3 way = tracked[joint].position - (*memory.last.tracked)[joint].position;
-    return Vec3(way / seconds - velocity_before(memory, index_of(joint))).norm();
+  const auto changes_more = [&](Joint joint, double than_mps) {
+    return change_of_velocity(tracked, index_of(joint), seconds, memory).norm() > than_mps;
   };
   const double most_mps = most_change(seconds);
   for (const Joint corner : {Joint::wrist, Joint::index_proximal, Joint::little_proximal}) {
-    if (change_mps(corner) > most_mps) return true;
+    if (changes_more(corner, most_mps)) return true;
   }
   for (std::size_t d = 0; d < kDigitCount; ++d) {
-    if (change_mps(joints_of(digit_at(d)).tip) > kTipsMore * most_mps) return true;
+    if (changes_more(joints_of(digit_at(d)).tip, kTipsMore * most_mps)) return true;
   }
   return false;
 }
 
 }  // namespace
-
-Vec3 velocity_before(const SettleMemory& memory, std::size_t joint) noexcept {
-  return memory.pace[joint] - memory.drift[joint];
-}
-
-double most_change(double seconds) noexcept {
-  return kMostAcceleration * seconds + kTrackersError_m / seconds;
-}
 
 bool follow_jumps(const HandPose& tracked, double seconds, SettleMemory& memory) noexcept {
   std::optional<FrameBeforeJump>& before = memory.before_jump;
@@ -53,6 +60,12 @@ bool follow_jumps(const HandPose& tracked, double seconds, SettleMemory& memory)
     before = {*memory.last.tracked, memory.last.correction, memory.carried, seconds};
   }
   return true;
+}
+
+Vec3 velocity_after_jump(const HandPose& tracked, std::size_t joint, double seconds,
+                         const SettleMemory& memory) noexcept {
+  const Vec3 change = change_of_velocity(tracked, joint, seconds, memory);
+  return velocity_before(memory, joint) + shortened(change, most_change(seconds));
 }
 
 }  // namespace nade

@@ -113,13 +113,13 @@ void follow_pace(const SettledFrame& now, double seconds, bool jumped,
                  SettleMemory& memory) noexcept {
   const SettledFrame& before = memory.last;
   for (std::size_t i = 0; i < kJointCount; ++i) {
-    const Vec3 last = velocity_before(memory, i);
+    if (jumped) {  // as if it went along with the person's hand
+      memory.pace[i] = velocity_after_jump(*now.tracked, i, seconds, memory);
+      memory.drift[i].setZero();
+      continue;
+    }
     memory.pace[i] = (now.drawn.joints[i].position - before.drawn.joints[i].position) / seconds;
     memory.drift[i] = (offset_of(now, i) - offset_of(before, i)) / seconds;
-    if (!jumped) continue;
-    const Vec3 change = velocity_before(memory, i) - last;
-    memory.pace[i] = last + std::min(1.0, most_change(seconds) / change.norm()) * change;
-    memory.drift[i].setZero();
   }
 }
 

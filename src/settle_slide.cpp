@@ -10,11 +10,6 @@ namespace {
 /// A hand that friction holds back or lets slip takes about this time for it.
 constexpr double kLagTime_s = 0.2;
 
-Vec3 shortened(const Vec3& vector, double most) {
-  const double length = vector.norm();
-  return length > most ? Vec3(most / length * vector) : vector;
-}
-
 /// Friction: what was stroked along the surface stays behind, up to a bound; then it slips, and
 /// catches up no faster than the hand strokes.
 void rub(const Vec3& stroked, const Vec3& normal, const VisibleFriction& friction,

@@ -21,13 +21,6 @@ HandPose shifted(const HandPose& hand, const Vec3& way) {
   return moved(hand, {way, Quat::Identity()});
 }
 
-/// About its palm.
-HandPose turned(const HandPose& hand, double angle_rad, const Vec3& axis) {
-  const Quat turn(Eigen::AngleAxisd(angle_rad, axis));
-  const Vec3 palm = hand[Joint::palm].position;
-  return moved(hand, {palm - turn * palm, turn});
-}
-
 HandPose curled(const HandPose& hand, Digit digit) {
   HandAngles angles = measure_angles(hand);
   for (HingeAngles& hinge : angles[index_of(digit)]) hinge.flexion = 1.2;
@@ -92,7 +85,10 @@ TEST(SettleJump, AHandThatIsSeenTurnedForAFrameStaysWhereItWas) {
   for (const Vec3& axis : {Vec3(1.0, 0.0, 0.0), Vec3(0.0, 0.0, 1.0)}) {
     for (const double angle_rad : {-0.8, 0.8}) {
       SCOPED_TRACE(testing::Message() << angle_rad << " about " << axis.transpose());
-      expect_no_harm([&](const HandPose& hand) { return turned(hand, angle_rad, axis); });
+      const Quat turn(Eigen::AngleAxisd(angle_rad, axis));
+      expect_no_harm([&](const HandPose& hand) {
+        return test::placed_hand(hand, hand[Joint::palm].position, turn);
+      });
     }
   }
 }

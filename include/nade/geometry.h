@@ -21,6 +21,12 @@ using Quat = Eigen::Quaternion<double, Eigen::DontAlign>;
   return vector - normal.dot(vector) * normal;
 }
 
+/// A vector, or as much of it as is no longer than `most`.
+[[nodiscard]] inline Vec3 shortened(const Vec3& vector, double most) {
+  const double length = vector.norm();
+  return length > most ? Vec3(most / length * vector) : vector;
+}
+
 /// A rigid motion: `position` and `rotation` take local coordinates to the parent's.
 struct Pose {
   Vec3 position = Vec3::Zero();
