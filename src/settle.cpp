@@ -154,10 +154,10 @@ class Settling {
 void Settling::find_motion() {
   const SettledFrame& last = memory_.last;
   if (!last.tracked) return;
+  jumped_ = follow_jumps(model_.tracked, seconds_, memory_);
   motion_m_ = largest_motion(*last.tracked, model_.tracked);
   memory_.way_m += motion_m_;
   follow_rest(motion_m_, seconds_, memory_.rest);
-  jumped_ = follow_jumps(model_.tracked, seconds_, memory_);
   if (jumped_) return;
   const double follow = memory_.fresh ? 1.0 : followed(seconds_, kVelocityTime_s);
   follow_velocity(*last.tracked, model_.tracked, seconds_, follow, memory_.velocity);

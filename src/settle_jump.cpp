@@ -1,6 +1,9 @@
 #include "settle_jump.h"
 
+#include <algorithm>
+
 #include "nade/correction.h"
+#include "settle_unrest.h"
 
 namespace nade {
 namespace {
@@ -13,7 +16,7 @@ constexpr double kTipsMore = 1.5;
 /// Frames farther apart do not say how the hand went in between.
 constexpr double kFarApart_s = 0.045;
 /// A jump back comes so soon, to no farther from where the hand was than this.
-constexpr double kSoon_s = 0.1;
+constexpr double kSoon_s = 0.3;
 constexpr double kThere_m = 0.04;
 
 /// A tracked joint's in the last frame, m/s.
@@ -46,18 +49,46 @@ bool has_jumped(const HandPose& tracked, double seconds, const SettleMemory& mem
   return false;
 }
 
+void grow_older(double seconds, FramesBeforeJumps& frames) {
+  for (std::optional<FrameBeforeJump>& before : frames) {
+    if (before && (before->ago_s += seconds) > kSoon_s) before.reset();
+  }
+}
+
+/// The frame before a jump to which the hand has jumped back, if any: the nearest.
+const FrameBeforeJump* gone_back_to(const HandPose& tracked, const FramesBeforeJumps& frames) {
+  const FrameBeforeJump* nearest = nullptr;
+  double nearest_m = kThere_m;
+  for (const std::optional<FrameBeforeJump>& before : frames) {
+    const double away_m = before ? largest_motion(*before->frame.tracked, tracked) : kThere_m;
+    if (away_m >= nearest_m) continue;
+    nearest_m = away_m;
+    nearest = &*before;
+  }
+  return nearest;
+}
+
+/// In the place of none, or of the oldest.
+void remember(const FrameBeforeJump& last, FramesBeforeJumps& frames) {
+  const auto age_s = [](const std::optional<FrameBeforeJump>& before) {
+    return before ? before->ago_s : 2.0 * kSoon_s;
+  };
+  *std::max_element(frames.begin(), frames.end(),
+                    [&](const auto& a, const auto& b) { return age_s(a) < age_s(b); }) = last;
+}
+
 }  // namespace
 
 bool follow_jumps(const HandPose& tracked, double seconds, SettleMemory& memory) noexcept {
-  std::optional<FrameBeforeJump>& before = memory.before_jump;
-  if (before && (before->ago_s += seconds) > kSoon_s) before.reset();
+  grow_older(seconds, memory.before_jumps);
   if (!has_jumped(tracked, seconds, memory)) return seconds > kFarApart_s;
-  if (before && largest_motion(before->tracked, tracked) < kThere_m) {
-    memory.last.correction = before->correction;
+  break_motion(memory.unrest);
+  if (const FrameBeforeJump* const before = gone_back_to(tracked, memory.before_jumps)) {
+    memory.last = before->frame;
     memory.carried = before->carried;
-    before.reset();
-  } else if (!before) {
-    before = {*memory.last.tracked, memory.last.correction, memory.carried, seconds};
+    memory.before_jumps = {};
+  } else {
+    remember({memory.last, memory.carried, seconds}, memory.before_jumps);
   }
   return true;
 }

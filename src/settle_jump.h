@@ -7,8 +7,8 @@ namespace nade {
 // A tracker errs: for a frame or a few it has the hand, or a digit, somewhere else.
 
 /// Whether the tracked hand jumped since the last frame: changed its velocity as no hand can, or
-/// was not seen for so long that it may have. Where it jumps back, soon, to about where it was, the
-/// correction is again as it was there.
+/// was not seen for so long that it may have. A jump says nothing of the hand's unrest. Where it
+/// jumps back, soon, to about where it was, the frame there is the last.
 [[nodiscard]] bool follow_jumps(const HandPose& tracked, double seconds,
                                 SettleMemory& memory) noexcept;
 

@@ -100,6 +100,56 @@ TEST(SettleJump, AHandOneOfWhoseFingersIsSeenCurledForAFrameStaysWhereItWas) {
   }
 }
 
+/// As a hidden finger is, that the tracker makes up. It stood 48 mm off the surface when it was
+/// seen again, for most of a second.
+TEST(SettleJump, AHandOneOfWhoseFingersIsSeenCurledForAWhileStaysWhereItWas) {
+  constexpr int kFirst = 120;
+  for (const Digit digit : {Digit::index, Digit::little}) {
+    for (const int frames : {3, 8, 18}) {
+      SCOPED_TRACE(testing::Message()
+                   << "digit " << index_of(digit) << ", " << frames << " frames");
+      const Object object = test::ball();
+      HandCorrector misled(test::settling());
+      HandCorrector sure(test::settling());
+      double away_m = 0.0;
+      for (int i = 0; i < kFirst + frames + 60; ++i) {
+        const HandPose hand = test::on_the_way_down(i, 60, 0.02);
+        const HandPose rests = sure.update(hand, object, i * kFrame_ns).pose;
+        const bool hidden = i >= kFirst && i < kFirst + frames;
+        const HandPose seen = hidden ? curled(hand, digit) : hand;
+        const HandPose drawn = misled.update(seen, object, i * kFrame_ns).pose;
+        if (i > kFirst + frames) away_m = std::max(away_m, largest_motion(rests, drawn));
+      }
+      EXPECT_LT(away_m, 0.002);
+    }
+  }
+}
+
+/// It was taken for restless, and its palm drawn 5 mm down.
+TEST(SettleJump, AHandOneOfWhoseFingersIsSeenCurledForAWhileIsAsCalmAsBefore) {
+  constexpr int kFirst = 180;
+  HandAngles bent = test::relaxed_angles();
+  for (std::size_t d = 1; d < kDigitCount; ++d) {
+    for (HingeAngles& hinge : bent[d]) hinge.flexion += 0.25;
+  }
+  const HandPose shape = test::generic_size_hand(Handedness::right, bent);
+  HandCorrector misled(test::settling());
+  HandCorrector sure(test::settling());
+  double lower_m = 0.0;
+  for (int i = 0; i < kFirst + 100; ++i) {
+    const double time_s = i / 90.0;
+    const HandPose hand = test::pressed_hand(-0.012 + 0.02 * std::min(1.0, time_s), 0.0,
+                                             {0.05 * std::sin(time_s), 0.0, 0.0}, shape);
+    const HandPose strokes = sure.update(hand, test::plane(), i * kFrame_ns).pose;
+    const bool hidden = i >= kFirst && i < kFirst + 5;
+    const HandPose seen = hidden ? curled(hand, Digit::index) : hand;
+    const HandPose drawn = misled.update(seen, test::plane(), i * kFrame_ns).pose;
+    const Joint palm = Joint::palm;
+    lower_m = std::max(lower_m, strokes[palm].position.y() - drawn[palm].position.y());
+  }
+  EXPECT_LT(lower_m, 0.002);
+}
+
 /// It was drawn 57 mm from the person's.
 TEST(SettleJump, AHandThatIsFoundHigherAfterAFewFramesIsDrawnThere) {
   for (const bool flat : {true, false}) {

@@ -127,13 +127,14 @@ struct SurfaceWatch {
 };
 inline constexpr std::size_t kSurfaceWatches = 7;
 
-/// The last frame before the tracked hand jumped.
+/// A frame after which the tracked hand jumped.
 struct FrameBeforeJump {
-  HandPose tracked;
-  Correction correction;
+  SettledFrame frame;
   Vec3 carried = Vec3::Zero();  ///< as `SettleMemory::carried`
   double ago_s = 0.0;
 };
+/// Of the last few jumps: a tracker may err anew before it is back.
+using FramesBeforeJumps = std::array<std::optional<FrameBeforeJump>, 3>;
 
 /// What settle_hand remembers of a hand from frame to frame, and room to work in. All of it is in
 /// the object's frame, and in the world's lengths; but the hand's unrest is as seen from `home`.
@@ -175,7 +176,7 @@ struct SettleMemory {
   FingerCurls curl_at_touch{};                    ///< of the tracked hand; in the air, now
   HandFreedoms geometric = HandFreedoms::Zero();  ///< stiffness, of the last round's contacts
   std::array<double, kPulls> pulls{};  ///< times the full pull on a calm hand, in the last frame
-  std::optional<FrameBeforeJump> before_jump;         ///< where that was just now
+  FramesBeforeJumps before_jumps;      ///< where that was just now
   std::array<SurfaceWatch, kSurfaceWatches> watches;  ///< while the object deforms
   std::vector<PadMemory> pads;
   std::vector<ContactRow> rows;
