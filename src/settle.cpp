@@ -171,6 +171,7 @@ void Settling::start() {
   const double growth = std::abs(object_.scale() / memory_.scale - 1.0);
   const double grown_m = growth * tracked[Joint::palm].position.norm();
   search_.seconds = seconds_;
+  search_.speed_mps = motion_m_ / seconds_;
   fresh_ = !memory_.last.tracked || !(motion_m_ + grown_m <= kTeleport_m) ||
            (deformed_ && is_swallowed(object_, memory_));
   if (!fresh_ && follow_leaving(search_, memory_)) {
@@ -200,7 +201,6 @@ void Settling::start() {
   search_.velocity = memory_.velocity;
   if (fresh_) return;
   search_.before = pose_flesh(memory_.last.drawn, model_.scale);
-  search_.speed_mps = motion_m_ / seconds_;
   farthest_m_ = farthest_way();
   if (jumped_) return;
   follow_strike(*memory_.last.tracked, tracked, normal_, seconds_, memory_.strike_mps);

@@ -15,11 +15,12 @@ constexpr double kFar_m = 0.04;
 constexpr double kClear_m = 0.006;
 /// It is on its way out, and not held up, until it has been clear for so long.
 constexpr double kOnItsWay_s = 0.1;
-/// What is held up so long, with a joint farther off than this, is let go; sooner, the farther off.
-/// A hand that is pressed 80 mm deep through a thin board or bowl is not: it has 126 mm at the
-/// most.
+/// What is held up so long, with a joint farther off than this, is let go; sooner, the farther off,
+/// and the more hand and object move against each other: a metre counts as so many seconds. A hand
+/// that is pressed 80 mm deep through a thin board or bowl is not: it has 126 mm at the most.
 constexpr double kPatience_s = 1.0;
 constexpr double kStuck_m = 0.13;
+constexpr double kPatienceOfWay = 3.0;
 /// It comes back through the object by up to so many times the tracked hand's motion, and so fast.
 constexpr double kReturnOfMotion = 1.8;
 constexpr double kReturn_mps = 0.17;
@@ -63,7 +64,8 @@ bool follow_leaving(const TouchSearch& search, SettleMemory& memory) noexcept {
     memory.stuck_s = 0.0;
     return false;
   }
-  const double pace = away_m > kStuck_m ? away_m / kStuck_m : -1.0;
+  const double passing = 1.0 + kPatienceOfWay * search.speed_mps;
+  const double pace = away_m > kStuck_m ? passing * away_m / kStuck_m : -1.0;
   memory.stuck_s = std::max(0.0, memory.stuck_s + pace * search.seconds);
   return memory.stuck_s > kPatience_s;
 }

@@ -62,6 +62,23 @@ TEST(SettleLeave, AHandThatWentRightThroughComesBackInTheEnd) {
   EXPECT_LT(away_m.back(), 0.001);
 }
 
+/// Where it was let go, 1.26 m from the person's.
+TEST(SettleLeave, AThrownBoardTakesTheHandAlongNoFartherThanItMust) {
+  const auto surface = block({0.2F, 0.02F, 0.15F});
+  const HandPose tracked = pressed_hand(0.0);
+  HandCorrector corrector(settling());
+  double farthest_m = 0.0;
+  double away_m = 0.0;
+  for (int i = 0; i < 60; ++i) {
+    const double height_m = -0.8 + 5.0 * i / 90.0;
+    const Object object(*surface, {{{0.01, height_m, 0.01}, Quat::Identity()}, 1.0});
+    away_m = largest_motion(tracked, corrector.update(tracked, object, i * kFrame_ns).pose);
+    farthest_m = std::max(farthest_m, away_m);
+  }
+  EXPECT_LT(farthest_m, 0.65);
+  EXPECT_LT(away_m, 0.01);
+}
+
 /// As before, and then into the block's top, soon after it was let go: it was drawn 85 mm deep in
 /// it for two seconds, and jumped out of it by 76 mm.
 TEST(SettleLeave, AHandThatWasLetGoMayPressAgain) {
