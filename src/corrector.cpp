@@ -23,6 +23,8 @@ constexpr double kLongestMotion_m = 0.03;
 /// what it had is over, but no sooner than the second.
 constexpr double kLongestGap_s = 0.2;
 constexpr double kShortestGap_s = 0.1;
+/// A clock that goes back by no more than this was read late before.
+constexpr double kLateClock_s = 0.005;
 /// The mean hand length forgets frames older than about this many.
 constexpr std::int64_t kLengthFrames = 512;
 
@@ -60,6 +62,10 @@ double share_left(double elapsed_s, double release_s) {
 double seconds(std::int64_t from_ns, std::int64_t to_ns) {
   return 1e-9 * static_cast<double>(static_cast<std::uint64_t>(to_ns) -
                                     static_cast<std::uint64_t>(from_ns));
+}
+
+bool is_just_before(std::int64_t time_ns, std::int64_t last_ns) {
+  return time_ns < last_ns && seconds(time_ns, last_ns) <= kLateClock_s;
 }
 
 bool touches(const Contacts& contacts) {
@@ -135,6 +141,7 @@ const CorrectedHand& HandCorrector::update(const HandPose& tracked, const Object
     return result_;
   }
   if (options_.method == Method::none) return result_;
+  if (last_ && is_just_before(time_ns, last_->time_ns)) time_ns = last_->time_ns;
   start_frame(tracked, time_ns);
   if (options_.method == Method::paper) correct_by_paper(tracked, object, time_ns);
   if (options_.method == Method::nade) settle(tracked, object, time_ns);

@@ -36,16 +36,44 @@ constexpr double kCurled_rad = 0.65;
 /// differences against second ones.
 constexpr double kWhiteChange = 20.0 / 6.0;
 
-/// 0 for a hand that moves smoothly, to 1 for one that trembles or whose tracker errs: unrest is
 /// j^3/a^2, docs/method.md.
-double unrest_share(const Unrest& unrest) {
-  const bool known = unrest.samples >= kEnoughSamples || unrest.change_root_mean > 0.0;
-  if (!known && unrest.age_s <= kUnknown_s) return kUnknownShare;
-  const double acceleration = unrest.root_mean * unrest.root_mean;
+double unrest_mpss(const Acceleration& by_clock) {
+  const double acceleration = by_clock.root_mean * by_clock.root_mean;
   if (!(acceleration > kStill_mpss)) return 0.0;
-  const double white = unrest.change_root_mean * unrest.change_root_mean / std::sqrt(kWhiteChange);
+  const double change = by_clock.change_root_mean * by_clock.change_root_mean;
+  const double white = change / std::sqrt(kWhiteChange);
   const double newness = white / acceleration;
-  return smoothstep(kCalm_mpss, kRestless_mpss, newness * newness * white);
+  return newness * newness * white;
+}
+
+/// 0 for a hand that moves smoothly, to 1 for one that trembles or whose tracker errs.
+double unrest_share(const Unrest& unrest) {
+  const bool known = unrest.samples >= kEnoughSamples || unrest.by_times.change_root_mean > 0.0;
+  if (!known && unrest.age_s <= kUnknown_s) return kUnknownShare;
+  return smoothstep(kCalm_mpss, kRestless_mpss,
+                    std::min(unrest_mpss(unrest.by_times), unrest_mpss(unrest.by_samples)));
+}
+
+/// Takes in a sample of a motion that there are `samples` of already: what the joints went since
+/// the last, so long ago by a clock whose unit takes `unit_s`.
+void follow_acceleration(const JointVectors& ways, double elapsed, double unit_s, int samples,
+                         double share, Acceleration& by_clock) {
+  double square = 0.0;
+  double change_square = 0.0;
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    const Vec3 velocity = ways[i] / elapsed;
+    const Vec3 acceleration = (velocity - by_clock.velocity[i]) / elapsed;
+    square += acceleration.squaredNorm();
+    change_square += (acceleration - by_clock.latest[i]).squaredNorm();
+    by_clock.velocity[i] = velocity;
+    by_clock.latest[i] = acceleration;
+  }
+  const auto follow = [&](double sum, double& root_mean) {
+    const double root = std::pow(sum / kJointCount, 0.25) / unit_s;
+    root_mean = root_mean == 0.0 ? root : root_mean + share * (root - root_mean);
+  };
+  if (samples >= 2) follow(square, by_clock.root_mean);
+  if (samples >= 3) follow(change_square, by_clock.change_root_mean);
 }
 
 /// 1 for a finger that is open, 0 for one that is curled.
@@ -59,8 +87,10 @@ double openness(double curl_rad, double at_touch_rad) {
 Unrest no_unrest() noexcept {
   Unrest unrest;
   unrest.joints.fill(Vec3::Zero());
-  unrest.velocity.fill(Vec3::Zero());
-  unrest.acceleration.fill(Vec3::Zero());
+  for (Acceleration* const by_clock : {&unrest.by_times, &unrest.by_samples}) {
+    by_clock->velocity.fill(Vec3::Zero());
+    by_clock->latest.fill(Vec3::Zero());
+  }
   return unrest;
 }
 
@@ -76,27 +106,18 @@ void follow_unrest(const HandPose& hand, double seconds, Unrest& unrest) noexcep
   if (unrest.samples > 0 && (!moved || unrest.elapsed_s < kClosest_s)) return;
   if (unrest.elapsed_s > kFarthest_s) break_motion(unrest);
   const double elapsed_s = std::exchange(unrest.elapsed_s, 0.0);
-  double square = 0.0;
-  double change_square = 0.0;
+  JointVectors ways;
   for (std::size_t i = 0; i < kJointCount; ++i) {
-    const Vec3 joint = hand.joints[i].position;
-    if (unrest.samples > 0) {
-      const Vec3 velocity = (joint - unrest.joints[i]) / elapsed_s;
-      const Vec3 acceleration = (velocity - unrest.velocity[i]) / elapsed_s;
-      square += acceleration.squaredNorm();
-      change_square += (acceleration - unrest.acceleration[i]).squaredNorm();
-      unrest.velocity[i] = velocity;
-      unrest.acceleration[i] = acceleration;
-    }
-    unrest.joints[i] = joint;
+    ways[i] = hand.joints[i].position - unrest.joints[i];
+    unrest.joints[i] = hand.joints[i].position;
   }
-  const double share = followed(elapsed_s, kUnrestTime_s);
-  const auto follow = [share](double sum, double& root_mean) {
-    const double root = std::pow(sum / kJointCount, 0.25);
-    root_mean = root_mean == 0.0 ? root : root_mean + share * (root - root_mean);
-  };
-  if (unrest.samples >= 2) follow(square, unrest.root_mean);
-  if (unrest.samples >= 3) follow(change_square, unrest.change_root_mean);
+  if (unrest.samples > 0) {
+    const double share = followed(elapsed_s, kUnrestTime_s);
+    unrest.apart_s =
+        unrest.apart_s == 0.0 ? elapsed_s : unrest.apart_s + share * (elapsed_s - unrest.apart_s);
+    follow_acceleration(ways, elapsed_s, 1.0, unrest.samples, share, unrest.by_times);
+    follow_acceleration(ways, 1.0, unrest.apart_s, unrest.samples, share, unrest.by_samples);
+  }
   unrest.samples = std::min(unrest.samples + 1, kEnoughSamples);
 }
 

@@ -144,5 +144,44 @@ TEST(SettleUnrest, PosesThatRepeatAreNoTremor) {
   EXPECT_NEAR(drawn_height_m(2, kFrame_ns), once_m, 0.008);
 }
 
+/// A stroke of a hand with bent fingers at 120 Hz, once with the times of its frames as they are
+/// and once with others: how far apart the two are drawn at the most, metres.
+template <class Clock>
+double apart_by_times(const Clock& read) {
+  HandAngles bent = test::relaxed_angles();
+  for (std::size_t d = 1; d < kDigitCount; ++d) {
+    for (HingeAngles& hinge : bent[d]) hinge.flexion += 0.25;
+  }
+  const HandPose shape = test::generic_size_hand(Handedness::right, bent);
+  HandCorrector exact(settling());
+  HandCorrector read_off(settling());
+  double apart_m = 0.0;
+  for (int i = 0; i < 480; ++i) {
+    const double time_s = i / 120.0;
+    const HandPose hand = pressed_hand(-0.05 + 0.06 * std::min(1.0, time_s), 0.0,
+                                       {0.06 * std::sin(1.5 * time_s), 0.0, 0.0}, shape);
+    const HandPose drawn = exact.update(hand, plane(), std::llround(1e9 * time_s)).pose;
+    apart_m =
+        std::max(apart_m, largest_motion(drawn, read_off.update(hand, plane(), read(time_s)).pose));
+  }
+  return apart_m;
+}
+
+/// It was taken for restless and drawn up to 23 mm off.
+TEST(SettleUnrest, AHandThatIsTimedInWholeMillisecondsIsNotRestless) {
+  EXPECT_LT(apart_by_times(
+                [](double time_s) { return 1'000'000 * static_cast<std::int64_t>(1e3 * time_s); }),
+            0.001);
+}
+
+/// Now and then they go back: the hand was found anew there.
+TEST(SettleUnrest, AHandWhoseTimesAreOffIsNotRestless) {
+  Random random(11);
+  EXPECT_LT(apart_by_times([&](double time_s) {
+              return std::llround(1e9 * (time_s + 0.002 * random.normal()));
+            }),
+            0.004);
+}
+
 }  // namespace
 }  // namespace nade

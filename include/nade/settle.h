@@ -102,19 +102,27 @@ struct SettledFrame {
 /// One for each joint.
 using JointVectors = std::array<Vec3, kJointCount>;
 
-/// How a tracked hand's joints accelerate, and how much of that is new in each sample: tremor, and
-/// the tracker's errors. What the object adds to a restless motion is less to be seen than on a
-/// smooth one. The means are over about a third of a second of the root mean square
-/// over the joints, and of square roots, so that one sudden turn counts for little.
-struct Unrest {
-  int samples = 0;                ///< of this motion, up to 4: enough for all of it
-  double elapsed_s = 0.0;         ///< since the last
-  double age_s = 0.0;             ///< since this hand was first seen
-  JointVectors joints{};          ///< in it, m
-  JointVectors velocity{};        ///< m/s
-  JointVectors acceleration{};    ///< m/s^2
-  double root_mean = 0.0;         ///< of the acceleration, (m/s^2)^1/2
+/// How a tracked hand's joints accelerate by one clock, and how much of that is new in each sample.
+/// The means are over about a third of a second of the root mean square over the joints, and of
+/// square roots, so that one sudden turn counts for little.
+struct Acceleration {
+  JointVectors velocity{};        ///< in the last sample; m, and by that clock's time
+  JointVectors latest{};          ///< acceleration, the same way
+  double root_mean = 0.0;         ///< (m/s^2)^1/2
   double change_root_mean = 0.0;  ///< of its change since the sample before
+};
+
+/// Tremor, and the tracker's errors. What the object adds to a restless motion is less to be seen
+/// than on a smooth one. Frames may come unevenly, or only their times may: the clock by which the
+/// hand is calmer is right.
+struct Unrest {
+  int samples = 0;          ///< of this motion, up to 4: enough for all of it
+  double elapsed_s = 0.0;   ///< since the last
+  double age_s = 0.0;       ///< since this hand was first seen
+  double apart_s = 0.0;     ///< are samples, in the mean
+  JointVectors joints{};    ///< in the last, m
+  Acceleration by_times;    ///< as the frames' times have it
+  Acceleration by_samples;  ///< as if all were as far apart
 };
 
 /// Each finger's middle and last flexion together, radians; 0 for the thumb.
