@@ -43,8 +43,6 @@ constexpr double kPushTime_s = 0.20506;
 /// A hand that moves farther from one frame to the next, or whose object grows by so much under it,
 /// was lost and found: its pads would not see from so far how deep they are.
 constexpr double kTeleport_m = 0.1;
-constexpr double kShortestFrame_s = 0.001;
-constexpr double kLongestFrame_s = 0.05;
 
 constexpr int kRounds = 3;
 constexpr int kFirstRounds = 40;
@@ -73,7 +71,7 @@ class Settling {
         model_(measure_model(tracked, scale)),
         search_{flesh, object, pose_flesh(tracked, scale), {}, scale},
         since_last_s_(seconds),
-        seconds_(std::clamp(seconds, kShortestFrame_s, kLongestFrame_s)) {
+        seconds_(frame_seconds(seconds, memory.unrest)) {
     start();
   }
 

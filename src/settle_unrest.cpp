@@ -19,6 +19,12 @@ constexpr double kFarthest_s = 0.05;
 /// A hand is calm up to this, and restless from that on; at 90 samples a second.
 constexpr double kCalm_mpss = 0.05;
 constexpr double kRestless_mpss = 0.25;
+constexpr double kShortestFrame_s = 0.001;
+constexpr double kLongestFrame_s = 0.05;
+/// Where by the frames' times a hand is so much more restless than if they were even, they are not
+/// as they say; but one that comes so many times as late came after a lost one.
+constexpr double kCalmerShare = 0.5;
+constexpr double kLost = 2.5;
 /// Whose joints accelerate by less is at rest.
 constexpr double kStill_mpss = 1e-6;
 /// A hand that is seen for the first time counts as half restless so long, or until it is known.
@@ -54,6 +60,11 @@ double unrest_share(const Unrest& unrest) {
                     std::min(unrest_mpss(unrest.by_times), unrest_mpss(unrest.by_samples)));
 }
 
+/// Takes a share of a value into a mean that begins with the first.
+void follow_mean(double value, double share, double& mean) {
+  mean = mean == 0.0 ? value : mean + share * (value - mean);
+}
+
 /// Takes in a sample of a motion that there are `samples` of already: what the joints went since
 /// the last, so long ago by a clock whose unit takes `unit_s`.
 void follow_acceleration(const JointVectors& ways, double elapsed, double unit_s, int samples,
@@ -68,12 +79,9 @@ void follow_acceleration(const JointVectors& ways, double elapsed, double unit_s
     by_clock.velocity[i] = velocity;
     by_clock.latest[i] = acceleration;
   }
-  const auto follow = [&](double sum, double& root_mean) {
-    const double root = std::pow(sum / kJointCount, 0.25) / unit_s;
-    root_mean = root_mean == 0.0 ? root : root_mean + share * (root - root_mean);
-  };
-  if (samples >= 2) follow(square, by_clock.root_mean);
-  if (samples >= 3) follow(change_square, by_clock.change_root_mean);
+  const auto root = [&](double sum) { return std::pow(sum / kJointCount, 0.25) / unit_s; };
+  if (samples >= 2) follow_mean(root(square), share, by_clock.root_mean);
+  if (samples >= 3) follow_mean(root(change_square), share, by_clock.change_root_mean);
 }
 
 /// 1 for a finger that is open, 0 for one that is curled.
@@ -94,11 +102,21 @@ Unrest no_unrest() noexcept {
   return unrest;
 }
 
+double frame_seconds(double seconds, const Unrest& unrest) noexcept {
+  const bool is_calmer =
+      unrest_mpss(unrest.by_samples) < kCalmerShare * unrest_mpss(unrest.by_times);
+  const bool is_even = is_calmer && seconds < kLost * unrest.frame_s;
+  return std::clamp(is_even ? unrest.frame_s : seconds, kShortestFrame_s, kLongestFrame_s);
+}
+
 void break_motion(Unrest& unrest) noexcept { unrest.samples = 0; }
 
 void follow_unrest(const HandPose& hand, double seconds, Unrest& unrest) noexcept {
   unrest.elapsed_s += seconds;
   unrest.age_s += seconds;
+  if (seconds <= kFarthest_s) {
+    follow_mean(seconds, followed(seconds, kUnrestTime_s), unrest.frame_s);
+  }
   bool moved = false;
   for (std::size_t i = 0; i < kJointCount; ++i) {
     moved = moved || hand.joints[i].position != unrest.joints[i];
@@ -113,8 +131,7 @@ void follow_unrest(const HandPose& hand, double seconds, Unrest& unrest) noexcep
   }
   if (unrest.samples > 0) {
     const double share = followed(elapsed_s, kUnrestTime_s);
-    unrest.apart_s =
-        unrest.apart_s == 0.0 ? elapsed_s : unrest.apart_s + share * (elapsed_s - unrest.apart_s);
+    follow_mean(elapsed_s, share, unrest.apart_s);
     follow_acceleration(ways, elapsed_s, 1.0, unrest.samples, share, unrest.by_times);
     follow_acceleration(ways, 1.0, unrest.apart_s, unrest.samples, share, unrest.by_samples);
   }

@@ -15,6 +15,9 @@ namespace nade {
 /// or comes at once after it, says nothing; a motion is not followed over a gap.
 void follow_unrest(const HandPose& hand, double seconds, Unrest& unrest) noexcept;
 
+/// How long a frame counts that came so long after the last: as long as all do, where only their
+/// times are uneven; a millisecond at the least, and 50 at the most.
+[[nodiscard]] double frame_seconds(double seconds, const Unrest& unrest) noexcept;
 /// After a jump: what is known of the hand's unrest stays, its motion starts anew.
 void break_motion(Unrest& unrest) noexcept;
 

@@ -116,12 +116,13 @@ struct Acceleration {
 /// than on a smooth one. Frames may come unevenly, or only their times may: the clock by which the
 /// hand is calmer is right.
 struct Unrest {
-  int samples = 0;          ///< of this motion, up to 4: enough for all of it
-  double elapsed_s = 0.0;   ///< since the last
-  double age_s = 0.0;       ///< since this hand was first seen
-  double apart_s = 0.0;     ///< are samples, in the mean
-  JointVectors joints{};    ///< in the last, m
-  Acceleration by_times;    ///< as the frames' times have it
+  int samples = 0;         ///< of this motion, up to 4: enough for all of it
+  double elapsed_s = 0.0;  ///< since the last
+  double age_s = 0.0;      ///< since this hand was first seen
+  double apart_s = 0.0;    ///< samples, in the mean
+  double frame_s = 0.0;    ///< between frames, in the mean: those that repeat a pose are no samples
+  JointVectors joints{};   ///< in the last, m
+  Acceleration by_times;   ///< as the frames' times have it
   Acceleration by_samples;  ///< as if all were as far apart
 };
 
