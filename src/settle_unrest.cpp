@@ -19,6 +19,7 @@ constexpr double kFarthest_s = 0.05;
 /// A hand is calm up to this, and restless from that on; at 90 samples a second.
 constexpr double kCalm_mpss = 0.05;
 constexpr double kRestless_mpss = 0.25;
+/// No frame counts less, or more.
 constexpr double kShortestFrame_s = 0.001;
 constexpr double kLongestFrame_s = 0.05;
 /// Where by the frames' times a hand is so much more restless than if they were even, they are not
