@@ -49,38 +49,29 @@ bool has_jumped(const HandPose& tracked, double seconds, const SettleMemory& mem
   return false;
 }
 
-void grow_older(double seconds, FramesBeforeJumps& frames) {
-  for (std::optional<FrameBeforeJump>& before : frames) {
-    if (before && (before->ago_s += seconds) > kSoon_s) before.reset();
-  }
-}
-
 /// The frame before a jump to which the hand has jumped back, if any: the nearest.
 const FrameBeforeJump* gone_back_to(const HandPose& tracked, const FramesBeforeJumps& frames) {
   const FrameBeforeJump* nearest = nullptr;
   double nearest_m = kThere_m;
-  for (const std::optional<FrameBeforeJump>& before : frames) {
-    const double away_m = before ? largest_motion(*before->frame.tracked, tracked) : kThere_m;
+  for (const FrameBeforeJump& before : frames) {
+    if (before.ago_s > kSoon_s) continue;
+    const double away_m = largest_motion(*before.frame.tracked, tracked);
     if (away_m >= nearest_m) continue;
     nearest_m = away_m;
-    nearest = &*before;
+    nearest = &before;
   }
   return nearest;
 }
 
-/// In the place of none, or of the oldest.
-void remember(const FrameBeforeJump& last, FramesBeforeJumps& frames) {
-  const auto age_s = [](const std::optional<FrameBeforeJump>& before) {
-    return before ? before->ago_s : 2.0 * kSoon_s;
-  };
-  *std::max_element(frames.begin(), frames.end(),
-                    [&](const auto& a, const auto& b) { return age_s(a) < age_s(b); }) = last;
+FrameBeforeJump& oldest_of(FramesBeforeJumps& frames) {
+  return *std::max_element(frames.begin(), frames.end(),
+                           [](const auto& a, const auto& b) { return a.ago_s < b.ago_s; });
 }
 
 }  // namespace
 
 bool follow_jumps(const HandPose& tracked, double seconds, SettleMemory& memory) noexcept {
-  grow_older(seconds, memory.before_jumps);
+  for (FrameBeforeJump& before : memory.before_jumps) before.ago_s += seconds;
   if (!has_jumped(tracked, seconds, memory)) return seconds > kFarApart_s;
   break_motion(memory.unrest);
   if (const FrameBeforeJump* const before = gone_back_to(tracked, memory.before_jumps)) {
@@ -88,7 +79,7 @@ bool follow_jumps(const HandPose& tracked, double seconds, SettleMemory& memory)
     memory.carried = before->carried;
     memory.before_jumps = {};
   } else {
-    remember({memory.last, memory.carried, seconds}, memory.before_jumps);
+    oldest_of(memory.before_jumps) = {memory.last, memory.carried, seconds};
   }
   return true;
 }

@@ -128,11 +128,7 @@ TEST(SettleJump, AHandOneOfWhoseFingersIsSeenCurledForAWhileStaysWhereItWas) {
 /// It was taken for restless, and its palm drawn 5 mm down.
 TEST(SettleJump, AHandOneOfWhoseFingersIsSeenCurledForAWhileIsAsCalmAsBefore) {
   constexpr int kFirst = 180;
-  HandAngles bent = test::relaxed_angles();
-  for (std::size_t d = 1; d < kDigitCount; ++d) {
-    for (HingeAngles& hinge : bent[d]) hinge.flexion += 0.25;
-  }
-  const HandPose shape = test::generic_size_hand(Handedness::right, bent);
+  const HandPose shape = test::bent_hand();
   HandCorrector misled(test::settling());
   HandCorrector sure(test::settling());
   double lower_m = 0.0;

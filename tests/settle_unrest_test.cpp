@@ -155,11 +155,7 @@ struct TimedStroke {
 
 template <class Clock>
 TimedStroke stroke_timed_by(const Clock& read) {
-  HandAngles bent = test::relaxed_angles();
-  for (std::size_t d = 1; d < kDigitCount; ++d) {
-    for (HingeAngles& hinge : bent[d]) hinge.flexion += 0.25;
-  }
-  const HandPose shape = test::generic_size_hand(Handedness::right, bent);
+  const HandPose shape = test::bent_hand();
   HandCorrector exact(settling());
   HandCorrector other(settling());
   TimedStroke stroke;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -140,10 +141,10 @@ inline constexpr std::size_t kSurfaceWatches = 7;
 struct FrameBeforeJump {
   SettledFrame frame;
   Vec3 carried = Vec3::Zero();  ///< as `SettleMemory::carried`
-  double ago_s = 0.0;
+  double ago_s = std::numeric_limits<double>::infinity();
 };
 /// Of the last few jumps: a tracker may err anew before it is back.
-using FramesBeforeJumps = std::array<std::optional<FrameBeforeJump>, 3>;
+using FramesBeforeJumps = std::array<FrameBeforeJump, 3>;
 
 /// What settle_hand remembers of a hand from frame to frame, and room to work in. All of it is in
 /// the object's frame, and in the world's lengths; but the hand's unrest is as seen from `home`.

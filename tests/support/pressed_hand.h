@@ -36,6 +36,15 @@ inline HandPose on_the_way_down(int frame, int frames, double depth_m, double ti
   return pressed_hand(-0.08 + share * (0.08 + depth_m), tilt_rad);
 }
 
+/// Its fingers' joints flexed by 0.25 rad more than a relaxed one's.
+inline HandPose bent_hand() {
+  HandAngles angles = relaxed_angles();
+  for (std::size_t d = 1; d < kDigitCount; ++d) {
+    for (HingeAngles& hinge : angles[d]) hinge.flexion += 0.25;
+  }
+  return generic_size_hand(Handedness::right, angles);
+}
+
 /// All joints flexed by 0.7 rad, as far as they can be.
 inline HandPose gripping_hand() {
   HandAngles angles = relaxed_angles();
