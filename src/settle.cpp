@@ -112,7 +112,7 @@ class Settling {
   [[nodiscard]] Correction after(const HandFreedoms& step) const;
   [[nodiscard]] SettleProblem problem_at(const PosedHand& posed, int round) const;
   [[nodiscard]] bool is_in_air() const {
-    return !fresh_ && (memory_.push.isZero() || is_held_up(memory_));
+    return !fresh_ && (memory_.contact.push.isZero() || is_held_up(memory_));
   }
   [[nodiscard]] double farthest_way() const;
   [[nodiscard]] bool is_in_contact() const;
@@ -181,10 +181,11 @@ void Settling::start() {
   } else if (deformed_) {
     forget_planes(memory_);
   }
-  search_.nearest_m = memory_.nearest_m;
-  search_.deepest_m = memory_.deepest_m;
-  search_.sink_m = options_.softness_m * followed(memory_.height_m, options_.softness_depth_m);
-  push_ = memory_.push;
+  search_.nearest_m = memory_.contact.nearest_m;
+  search_.deepest_m = memory_.contact.deepest_m;
+  search_.sink_m =
+      options_.softness_m * followed(memory_.contact.height_m, options_.softness_depth_m);
+  push_ = memory_.contact.push;
   correction_ = memory_.last.correction;
   const double reach_of_motion = jumped_ ? 1.0 : kRowReachOfMotion;
   search_.row_reach_m = fresh_ ? kDeepest_m : kRowReach_m + reach_of_motion * motion_m_;
@@ -211,11 +212,11 @@ void Settling::start() {
 void Settling::find_strengths() {
   follow_unrest(seen_, since_last_s_, memory_.unrest);
   const FingerCurls curls = curls_of(model_);
-  if (memory_.push.isZero()) memory_.curl_at_touch = curls;
-  search_.strengths = pull_strengths(memory_.unrest, curls, memory_.curl_at_touch);
+  if (memory_.contact.push.isZero()) memory_.contact.curl_at_touch = curls;
+  search_.strengths = pull_strengths(memory_.unrest, curls, memory_.contact.curl_at_touch);
   search_.pulls = !is_held_up(memory_);
   // On a hand found anew no pull has to come first.
-  search_.pulls_before = fresh_ ? search_.strengths : memory_.pulls;
+  search_.pulls_before = fresh_ ? search_.strengths : memory_.contact.pulls;
 }
 
 /// A hand that was lost comes back on the side of the object that its palm is nearest to.
@@ -237,7 +238,8 @@ SettleProblem Settling::problem_at(const PosedHand& posed, int round) const {
   problem.rows = memory_.rows;
 
   HandFreedoms away = step_between({}, correction_, search_.frame);
-  away.head<3>() -= search_.frame.transpose() * (memory_.carried + memory_.drawn_lag);
+  away.head<3>() -=
+      search_.frame.transpose() * (memory_.contact.carried + memory_.contact.drawn_lag);
   const bool in_air = is_in_air();
   problem.springs.add(in_air ? stiffness_in_air(away) : stiffness_of_pose(away), -away);
   // The forces on a hand found anew are not yet those that it will rest with.
@@ -249,8 +251,8 @@ SettleProblem Settling::problem_at(const PosedHand& posed, int round) const {
 
   const HandFreedoms changed = step_between(last_, correction_, search_.frame);
   if (!fresh_) {
-    problem.springs.add((in_air ? damping_in_air() : damping(away, memory_.height_m)) / seconds_,
-                        -changed);
+    problem.springs.add(
+        (in_air ? damping_in_air() : damping(away, memory_.contact.height_m)) / seconds_, -changed);
     const double inertia = in_air ? kInertiaInAir : kInertia;
     if (!jumped_)
       add_inertia(coasted_, inertia / (seconds_ * seconds_), posed, search_.frame, problem.springs);
@@ -299,16 +301,16 @@ bool Settling::is_in_contact() const {
 void Settling::find_push(const Vec3& force) {
   const double strength = force.norm();
   if (!(strength > 1e-12)) {
-    push_ = is_in_contact() ? memory_.push : Vec3::Zero();
+    push_ = is_in_contact() ? memory_.contact.push : Vec3::Zero();
     return;
   }
   push_ = force / strength;
-  if (memory_.push.isZero()) return;
-  push_ = mixed(memory_.push, push_, followed(seconds_, kPushTime_s));
+  if (memory_.contact.push.isZero()) return;
+  push_ = mixed(memory_.contact.push, push_, followed(seconds_, kPushTime_s));
 }
 
 void Settling::remember_contact() {
-  if (push_.isZero() || memory_.normal.isZero() || is_held_up(memory_)) {
+  if (push_.isZero() || memory_.contact.normal.isZero() || is_held_up(memory_)) {
     forget_slide(memory_);
   } else {
     const Vec3& palm = model_.tracked[Joint::palm].position;
@@ -317,11 +319,11 @@ void Settling::remember_contact() {
     remember_slide(correction_.palm.shift, along_surface(palm - before, normal_), normal_,
                    options_.friction, memory_);
   }
-  memory_.height_m = std::max(0.0, push_.dot(correction_.palm.shift));
-  memory_.nearest_m = patches_[kNearestSkin].gap_m + search_.sink_m;
-  memory_.deepest_m = patches_[kNearestSkin].depth_m;
-  memory_.push = push_;
-  memory_.normal = push_.isZero() ? push_ : normal_;
+  memory_.contact.height_m = std::max(0.0, push_.dot(correction_.palm.shift));
+  memory_.contact.nearest_m = patches_[kNearestSkin].gap_m + search_.sink_m;
+  memory_.contact.deepest_m = patches_[kNearestSkin].depth_m;
+  memory_.contact.push = push_;
+  memory_.contact.normal = push_.isZero() ? push_ : normal_;
 }
 
 void Settling::remember_frame(const HandPose& drawn) {

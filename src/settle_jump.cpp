@@ -76,10 +76,10 @@ bool follow_jumps(const HandPose& tracked, double seconds, SettleMemory& memory)
   break_motion(memory.unrest);
   if (const FrameBeforeJump* const before = gone_back_to(tracked, memory.before_jumps)) {
     memory.last = before->frame;
-    memory.carried = before->carried;
+    memory.contact.carried = before->contact.carried;
     memory.before_jumps = {};
   } else {
-    oldest_of(memory.before_jumps) = {memory.last, memory.carried, seconds};
+    oldest_of(memory.before_jumps) = {memory.last, memory.contact, seconds};
   }
   return true;
 }

@@ -57,7 +57,7 @@ bool is_held_up(const SettleMemory& memory) noexcept { return memory.clear_s > k
 
 bool follow_leaving(const TouchSearch& search, SettleMemory& memory) noexcept {
   const double away_m = largest_motion(memory.last.drawn, *memory.last.tracked);
-  const bool far = !memory.push.isZero() && (memory.clear_s > 0.0 || away_m > kFar_m);
+  const bool far = !memory.contact.push.isZero() && (memory.clear_s > 0.0 || away_m > kFar_m);
   const bool clear = far && is_tracked_clear(search, memory);
   memory.clear_s = clear ? memory.clear_s + search.seconds : 0.0;
   if (!is_held_up(memory)) {

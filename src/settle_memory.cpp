@@ -28,16 +28,14 @@ void forget_planes(SettleMemory& memory) noexcept {
 
 void forget_frame(SettleMemory& memory) noexcept {
   memory.last = {};
-  memory.push = memory.normal = Vec3::Zero();
-  forget_slide(memory);
+  memory.contact = {};
   memory.last_inside = 0;
   memory.geometric.setZero();
   for (JointVectors* vectors : {&memory.velocity, &memory.pace, &memory.drift, &memory.joints}) {
     vectors->fill(Vec3::Zero());
   }
-  memory.travel_m = memory.way_m = memory.rest = memory.height_m = memory.nearest_m =
-      memory.deepest_m = memory.strike_mps = memory.clear_s = memory.stuck_s = memory.return_share =
-          0.0;
+  memory.travel_m = memory.way_m = memory.rest = memory.strike_mps = memory.clear_s =
+      memory.stuck_s = memory.return_share = 0.0;
   memory.under_palm = memory.under_hand = memory.under_nearest = {};
   memory.undeformed_s = std::numeric_limits<double>::infinity();
   memory.watches.fill({});

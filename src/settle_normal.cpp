@@ -87,11 +87,11 @@ Vec3 normal_under_palm(const ScaledSurface& object, const Pose& palm, const Vec3
   const double same = smoothstep(kUnderOther, kUnderSame, seen->out.dot(under->normal));
   const Vec3 out = mixed(seen->out, under->normal, smooth * same);
   const Vec3 normal = mixed(push, out, smoothstep(kOtherSide, kSameSide, out.dot(push)));
-  if (memory.normal.isZero()) return normal;
+  if (memory.contact.normal.isZero()) return normal;
   const double most_rad = motion_m / kSharpest_m + kTurnAtRest_radps * seconds;
-  const double angle_rad = std::acos(std::clamp(normal.dot(memory.normal), -1.0, 1.0));
+  const double angle_rad = std::acos(std::clamp(normal.dot(memory.contact.normal), -1.0, 1.0));
   if (angle_rad <= most_rad) return normal;
-  return turn_toward(memory.normal, normal, most_rad / angle_rad) * memory.normal;
+  return turn_toward(memory.contact.normal, normal, most_rad / angle_rad) * memory.contact.normal;
 }
 
 }  // namespace nade

@@ -127,7 +127,7 @@ JointVectors coasted_joints(const SettleMemory& memory, const HandPose& tracked,
                             double seconds) noexcept {
   const SettledFrame& last = memory.last;
   const double strikes = smoothstep(kStrike_mps, kSureStrike_mps, memory.strike_mps);
-  const double rests = strikes * smoothstep(kDeep_m, kSurelyDeep_m, memory.deepest_m);
+  const double rests = strikes * smoothstep(kDeep_m, kSurelyDeep_m, memory.contact.deepest_m);
   const bool held_up = is_held_up(memory);  // not drawn to the surface, so it would not come back
   const double fading = 1.0 / kCoastTime_s + strikes / kStrikeCoastTime_s;
   const double faded_s = seconds * std::exp(-seconds * fading);

@@ -271,7 +271,7 @@ double add_pad(const TouchSearch& search, const Landing& landing, const NearPad&
   return lowest_m;
 }
 
-/// How strong a pull is, as `SettleMemory::pulls` has it: it comes in time, and goes at once.
+/// How strong a pull is, as `ContactState::pulls` has it: it comes in time, and goes at once.
 double pull_strength(const TouchSearch& search, const PatchTouch& patch, const PullGrowth& growth,
                      std::size_t pull) {
   const double before = search.pulls_before[pull];
@@ -306,8 +306,8 @@ void add_pulls(const TouchSearch& search, const PosedHand& posed, const PatchTou
     const bool nearest = i == kNearestSkin;
     const PullGrowth& growth = growth_of(i);
     const bool pulled = (search.pulls || nearest) && patch.point;
-    memory.pulls[i] = pulled ? pull_strength(search, patch, growth, i) : 0.0;
-    if (memory.pulls[i] == 0.0) continue;
+    memory.contact.pulls[i] = pulled ? pull_strength(search, patch, growth, i) : 0.0;
+    if (memory.contact.pulls[i] == 0.0) continue;
     ContactRow& row =
         memory.rows.emplace_back(motion_along(posed, *patch.point, patch.normal, search.frame));
     row.kind = RowKind::draw_near;
@@ -316,7 +316,7 @@ void add_pulls(const TouchSearch& search, const PosedHand& posed, const PatchTou
         nearest ? away_from_surface(search, posed, patch, memory.under_nearest) : patch.gap_m;
     row.gap_m = away_m + search.sink_m - kPullRest_m - held_m;
     row.curvature = patch.curvature;
-    row.stiffness = memory.pulls[i] * growth.stiffness;
+    row.stiffness = memory.contact.pulls[i] * growth.stiffness;
     if (!nearest || row.gap_m <= kAstray_m) continue;
     ContactRow& astray = memory.rows.emplace_back(row);
     astray.gap_m -= kAstray_m;

@@ -51,20 +51,20 @@ struct TouchSearch {
   std::optional<PosedFlesh> before;
   double scale = 1.0;            ///< of the tracked hand over the flesh
   double seconds = 0.0;          ///< since the last frame
-  PullStrengths pulls_before{};  ///< `SettleMemory::pulls` of the last frame
+  PullStrengths pulls_before{};  ///< `ContactState::pulls` of the last frame
   PullStrengths strengths{};
   bool pulls = true;         ///< whether more is drawn to the surface than what is nearest
   JointVectors velocity{};   ///< of the tracked joints, smoothed
   double speed_mps = 0.0;    ///< of the tracked hand's fastest joint
-  double nearest_m = 0.0;    ///< `SettleMemory::nearest_m`
-  double deepest_m = 0.0;    ///< `SettleMemory::deepest_m`
+  double nearest_m = 0.0;    ///< `ContactState::nearest_m`
+  double deepest_m = 0.0;    ///< `ContactState::deepest_m`
   Vec3 push = Vec3::Zero();  ///< unit, or zero in the air
   double row_reach_m = 0.0;  ///< skin nearer than this gets a row
   double sink_m = 0.0;       ///< so far in is still out
   Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  ///< in which the rows' wrist is counted
 };
 
-/// Fills `memory.rows` and `memory.pulls` for a posed hand.
+/// Fills `memory.rows` and `memory.contact.pulls` for a posed hand.
 [[nodiscard]] PatchTouches find_touches(const TouchSearch& search, const PosedHand& posed,
                                         SettleMemory& memory) noexcept;
 

@@ -137,10 +137,25 @@ struct SurfaceWatch {
 };
 inline constexpr std::size_t kSurfaceWatches = 7;
 
+/// How the hand touches the surface.
+struct ContactState {
+  Vec3 push = Vec3::Zero();       ///< unit, the way the object pushes; zero in the air
+  Vec3 normal = Vec3::Zero();     ///< of the surface under the tracked palm; zero in the air
+  double height_m = 0.0;          ///< of the drawn hand over the tracked one along `push`
+  double nearest_m = 0.0;         ///< from the drawn skin that is nearest to the surface to it
+  double deepest_m = 0.0;         ///< of the tracked skin below the surface, the deepest
+  Vec3 carried = Vec3::Zero();    ///< along the surface, from what was stroked so far
+  Vec3 lag = Vec3::Zero();        ///< along the surface, by friction
+  Vec3 drawn_lag = Vec3::Zero();  ///< the same, smoothed
+  bool slips = false;
+  FingerCurls curl_at_touch{};         ///< of the tracked hand; in the air, now
+  std::array<double, kPulls> pulls{};  ///< times the full pull on a calm hand
+};
+
 /// A frame after which the tracked hand jumped.
 struct FrameBeforeJump {
   SettledFrame frame;
-  Vec3 carried = Vec3::Zero();  ///< as `SettleMemory::carried`
+  ContactState contact;
   double ago_s = std::numeric_limits<double>::infinity();
 };
 /// Of the last few jumps: a tracker may err anew before it is back.
@@ -159,34 +174,24 @@ struct SettleMemory {
 
   Pose home;  ///< where the object was when the hand was found, in the world
   SettledFrame last;
+  ContactState contact;              ///< in it
   Correction before;                 ///< that of the frame before it
   bool fresh = false;                ///< whether the hand was found anew in it
   const Surface* surface = nullptr;  ///< the last frame's; only its address counts
   std::uint64_t shape = 0;           ///< the surface's, in the last frame
   double scale = 1.0;                ///< and the object's
   double undeformed_s = 0.0;         ///< how long both have been the same
-  Vec3 push = Vec3::Zero();          ///< unit, the way the object pushes; zero in the air
-  double height_m = 0.0;             ///< of the drawn hand over the tracked one along `push`
-  double nearest_m = 0.0;            ///< from the drawn skin that is nearest to the surface to it
-  double deepest_m = 0.0;            ///< of the tracked skin below the surface, the deepest
-  Vec3 normal = Vec3::Zero();        ///< of the surface under the tracked palm; zero in the air
-  SurfaceHint under_palm;            ///< where that was found
+  SurfaceHint under_palm;            ///< where the surface's normal was found
   SurfaceHint under_hand;            ///< and as seen from above the hand
   SurfaceHint under_nearest;         ///< and under the nearest drawn skin
-  Vec3 carried = Vec3::Zero();       ///< along the surface, from what was stroked so far
-  Vec3 lag = Vec3::Zero();           ///< along the surface, by friction
-  Vec3 drawn_lag = Vec3::Zero();     ///< the same, smoothed
-  bool slips = false;
   double clear_s = 0.0;  ///< how long the tracked hand is clear of the object, the drawn one far
   double stuck_s = 0.0;  ///< how long the drawn one is held up; the longer, the farther off it is
   HandFreedoms returning = HandFreedoms::Zero();  ///< from where a hand that was let go comes back
   double return_share = 0.0;                      ///< and how much of that is left, 1 to 0
   std::size_t last_inside = 0;  ///< the pad whose tracked skin was last found in the object
   Unrest unrest;
-  FingerCurls curl_at_touch{};                    ///< of the tracked hand; in the air, now
   HandFreedoms geometric = HandFreedoms::Zero();  ///< stiffness, of the last round's contacts
-  std::array<double, kPulls> pulls{};  ///< times the full pull on a calm hand, in the last frame
-  FramesBeforeJumps before_jumps;      ///< where that was just now
+  FramesBeforeJumps before_jumps;
   std::array<SurfaceWatch, kSurfaceWatches> watches;  ///< while the object deforms
   std::vector<PadMemory> pads;
   std::vector<ContactRow> rows;
