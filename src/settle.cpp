@@ -165,6 +165,7 @@ void Settling::start() {
   const HandPose& tracked = model_.tracked;
   deformed_ = object_.scale() != memory_.scale || object_.surface().shape() != memory_.shape;
   if (deformed_ && memory_.last.tracked) ride_along(object_, memory_);
+  if (!memory_.last.tracked) memory_.before_jumps = {};  // from who knows when
   find_motion();
   const double growth = std::abs(object_.scale() / memory_.scale - 1.0);
   const double grown_m = growth * tracked[Joint::palm].position.norm();

@@ -76,7 +76,8 @@ bool follow_jumps(const HandPose& tracked, double seconds, SettleMemory& memory)
   break_motion(memory.unrest);
   if (const FrameBeforeJump* const before = gone_back_to(tracked, memory.before_jumps)) {
     memory.last = before->frame;
-    memory.contact.carried = before->contact.carried;
+    memory.contact = before->contact;
+    forget_planes(memory);
     memory.before_jumps = {};
   } else {
     oldest_of(memory.before_jumps) = {memory.last, memory.contact, seconds};

@@ -39,7 +39,6 @@ void forget_frame(SettleMemory& memory) noexcept {
   memory.under_palm = memory.under_hand = memory.under_nearest = {};
   memory.undeformed_s = std::numeric_limits<double>::infinity();
   memory.watches.fill({});
-  memory.before_jumps = {};
   memory.pads.assign(memory.pads.size(), {});
   break_motion(memory.unrest);
 }

@@ -5,7 +5,9 @@
 #include <string>
 
 #include "nade/corrector.h"
+#include "nade/mesh.h"
 #include "support/hand_checks.h"
+#include "support/meshes.h"
 #include "support/pressed_hand.h"
 #include "support/random.h"
 
@@ -144,6 +146,39 @@ TEST(SettleJump, AHandOneOfWhoseFingersIsSeenCurledForAWhileIsAsCalmAsBefore) {
     lower_m = std::max(lower_m, strokes[palm].position.y() - drawn[palm].position.y());
   }
   EXPECT_LT(lower_m, 0.002);
+}
+
+/// As the other hand is that is taken for this one, or this one turned over. It came back to the
+/// other side of a thin board, 80 mm off, and stayed there.
+TEST(SettleJump, AHandThatIsFarAwayForAWhileComesBackToWhereItWas) {
+  constexpr int kFirst = 120;
+  const auto board = MeshSurface::build(test::box_mesh({0.2F, 0.005F, 0.15F}), "board");
+  ASSERT_TRUE(board);
+  const Object object(**board, {{{0.0, -0.005, 0.0}, Quat::Identity()}, 1.0});
+  const Quat over(Eigen::AngleAxisd(3.14, Vec3::UnitZ()));
+  const auto at_the_other_hand = [](const HandPose& hand) {
+    return shifted(hand, {-0.3, 0.05, 0.0});
+  };
+  const auto turned_over = [&](const HandPose& hand) {
+    return test::placed_hand(hand, hand[Joint::palm].position, over);
+  };
+  for (const bool is_over : {false, true}) {
+    for (const int frames : {1, 12}) {
+      SCOPED_TRACE(testing::Message() << (is_over ? "over, " : "far, ") << frames << " frames");
+      HandCorrector misled(test::settling());
+      HandCorrector sure(test::settling());
+      double away_m = 0.0;
+      for (int i = 0; i < kFirst + frames + 60; ++i) {
+        const HandPose hand = test::on_the_way_down(i, 60, 0.04);
+        const HandPose rests = sure.update(hand, object, i * kFrame_ns).pose;
+        const bool is_away = i >= kFirst && i < kFirst + frames;
+        const HandPose wrong = is_over ? turned_over(hand) : at_the_other_hand(hand);
+        const HandPose drawn = misled.update(is_away ? wrong : hand, object, i * kFrame_ns).pose;
+        if (i >= kFirst + frames) away_m = std::max(away_m, largest_motion(rests, drawn));
+      }
+      EXPECT_LT(away_m, 0.002);
+    }
+  }
 }
 
 /// It was drawn 57 mm from the person's.

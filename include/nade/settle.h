@@ -211,7 +211,8 @@ struct SettleMemory {
 /// The surface is another, or the hand elsewhere: what its pads saw does not count.
 void forget_planes(SettleMemory& memory) noexcept;
 
-/// The hand is found anew: what is known of its last frame, and of the surface, does not count.
+/// The hand is found anew: what is known of its last frame, and of the surface, does not count. It
+/// may still jump back to where it was.
 void forget_frame(SettleMemory& memory) noexcept;
 
 /// The next frame's hand is another's: nothing is known of it.
