@@ -21,7 +21,7 @@ constexpr double kJumpMargin_m = 0.002;
 constexpr double kLongestMotion_m = 0.03;
 /// A hand that was missing for longer is found anew. By the paper's method, when the release of
 /// what it had is over, but no sooner than the second.
-constexpr double kLongestGap_s = 0.2;
+constexpr double kLongestGap_s = 1.0;
 constexpr double kShortestGap_s = 0.1;
 /// A clock that goes back by no more than this was read late before.
 constexpr double kLateClock_s = 0.005;

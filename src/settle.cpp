@@ -43,6 +43,10 @@ constexpr double kPushTime_s = 0.20506;
 /// A hand that moves farther from one frame to the next, or whose object grows by so much under it,
 /// was lost and found: its pads would not see from so far how deep they are.
 constexpr double kTeleport_m = 0.1;
+/// One that was missing for longer is found anew, unless it presses on: it was in the object, has
+/// not come out, and is no farther from there than this.
+constexpr double kMissing_s = 0.2;
+constexpr double kPressesOn_m = 0.08;
 
 constexpr int kRounds = 3;
 constexpr int kFirstRounds = 40;
@@ -107,6 +111,7 @@ class Settling {
  private:
   void start();
   void find_motion();
+  [[nodiscard]] bool is_found_anew() const;
   void start_outside();
   void find_strengths();
   [[nodiscard]] Correction after(const HandFreedoms& step) const;
@@ -161,18 +166,29 @@ void Settling::find_motion() {
   follow_velocity(*last.tracked, model_.tracked, seconds_, follow, memory_.velocity);
 }
 
+/// Whether the last frame says nothing about where the hand is.
+bool Settling::is_found_anew() const {
+  if (!memory_.last.tracked) return true;
+  const Vec3& palm = model_.tracked[Joint::palm].position;
+  const double growth = std::abs(object_.scale() / memory_.scale - 1.0);
+  if (!(motion_m_ + growth * palm.norm() <= kTeleport_m)) return true;
+  if (deformed_ && is_swallowed(object_, memory_)) return true;
+  if (since_last_s_ <= kMissing_s) return false;
+  const ContactState& contact = memory_.contact;
+  const double risen_m = contact.push.dot(palm - (*memory_.last.tracked)[Joint::palm].position);
+  return contact.push.isZero() || is_held_up(memory_) || motion_m_ > kPressesOn_m ||
+         risen_m > contact.height_m;
+}
+
 void Settling::start() {
   const HandPose& tracked = model_.tracked;
   deformed_ = object_.scale() != memory_.scale || object_.surface().shape() != memory_.shape;
   if (deformed_ && memory_.last.tracked) ride_along(object_, memory_);
   if (!memory_.last.tracked) memory_.before_jumps = {};  // from who knows when
   find_motion();
-  const double growth = std::abs(object_.scale() / memory_.scale - 1.0);
-  const double grown_m = growth * tracked[Joint::palm].position.norm();
   search_.seconds = seconds_;
   search_.speed_mps = motion_m_ / seconds_;
-  fresh_ = !memory_.last.tracked || !(motion_m_ + grown_m <= kTeleport_m) ||
-           (deformed_ && is_swallowed(object_, memory_));
+  fresh_ = is_found_anew();
   if (!fresh_ && follow_leaving(search_, memory_)) {
     let_go_from_ = memory_.last.correction;
     fresh_ = true;

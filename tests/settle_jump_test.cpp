@@ -31,6 +31,12 @@ HandPose curled(const HandPose& hand, Digit digit) {
   return result;
 }
 
+/// 10 mm thick, its top at y = 0.
+Object thin_board() {
+  static const auto kBoard = MeshSurface::build(test::box_mesh({0.2F, 0.005F, 0.15F}), "board");
+  return Object(**kBoard, {{{0.0, -0.005, 0.0}, Quat::Identity()}, 1.0});
+}
+
 /// What became of a hand at rest `depth_m` deep whose tracker errs in one frame.
 struct Glitch {
   double deepest_m = 0.0;  ///< of the drawn skin in the object, from then on
@@ -152,9 +158,7 @@ TEST(SettleJump, AHandOneOfWhoseFingersIsSeenCurledForAWhileIsAsCalmAsBefore) {
 /// other side of a thin board, 80 mm off, and stayed there.
 TEST(SettleJump, AHandThatIsFarAwayForAWhileComesBackToWhereItWas) {
   constexpr int kFirst = 120;
-  const auto board = MeshSurface::build(test::box_mesh({0.2F, 0.005F, 0.15F}), "board");
-  ASSERT_TRUE(board);
-  const Object object(**board, {{{0.0, -0.005, 0.0}, Quat::Identity()}, 1.0});
+  const Object object = thin_board();
   const Quat over(Eigen::AngleAxisd(3.14, Vec3::UnitZ()));
   const auto at_the_other_hand = [](const HandPose& hand) {
     return shifted(hand, {-0.3, 0.05, 0.0});
@@ -179,6 +183,36 @@ TEST(SettleJump, AHandThatIsFarAwayForAWhileComesBackToWhereItWas) {
       EXPECT_LT(away_m, 0.002);
     }
   }
+}
+
+/// Found anew after a fifth of a second, it was drawn on the other side of the board, 80 mm off.
+TEST(SettleJump, AHandThatPressesOnWhileItIsMissingComesBackToWhereItWas) {
+  for (const int frames : {9, 45, 80}) {
+    SCOPED_TRACE(testing::Message() << frames << " frames");
+    const Object board = thin_board();
+    HandCorrector missed(test::settling());
+    HandCorrector sure(test::settling());
+    double away_m = 0.0;
+    for (int i = 0; i < 260; ++i) {
+      const HandPose hand = shifted(test::on_the_way_down(i, 60, 0.04), {4e-4 * i, 0.0, 0.0});
+      const HandPose strokes = sure.update(hand, board, i * kFrame_ns).pose;
+      if (i >= 120 && i < 120 + frames) continue;
+      const HandPose drawn = missed.update(hand, board, i * kFrame_ns).pose;
+      if (i > 120) away_m = std::max(away_m, largest_motion(strokes, drawn));
+    }
+    EXPECT_LT(away_m, 0.002);
+  }
+}
+
+/// Nothing holds it back there.
+TEST(SettleJump, AHandThatWasLiftedWhileItWasMissingIsDrawnAsItIs) {
+  HandCorrector corrector(test::settling());
+  for (int i = 0; i < 120; ++i) {
+    corrector.update(test::on_the_way_down(i, 60, 0.02), test::plane(), i * kFrame_ns);
+  }
+  const HandPose found = test::pressed_hand(-0.03);
+  const HandPose drawn = corrector.update(found, test::plane(), 165 * kFrame_ns).pose;
+  EXPECT_EQ(largest_motion(found, drawn), 0.0);
 }
 
 /// It was drawn 57 mm from the person's.
