@@ -227,7 +227,7 @@ void Settling::start() {
 
 /// How strongly the object may draw this hand.
 void Settling::find_strengths() {
-  follow_unrest(seen_, since_last_s_, memory_.unrest);
+  follow_unrest(seen_, model_.tracked, since_last_s_, memory_.unrest);
   const FingerCurls curls = curls_of(model_);
   if (memory_.contact.push.isZero()) memory_.contact.curl_at_touch = curls;
   search_.strengths = pull_strengths(memory_.unrest, curls, memory_.contact.curl_at_touch);

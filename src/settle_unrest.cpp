@@ -44,7 +44,7 @@ constexpr double kCurled_rad = 0.65;
 constexpr double kWhiteChange = 20.0 / 6.0;
 
 /// j^3/a^2, docs/method.md.
-double unrest_mpss(const Acceleration& by_clock) {
+double unrest_of(const Acceleration& by_clock) {
   const double acceleration = by_clock.root_mean * by_clock.root_mean;
   if (!(acceleration > kStill_mpss)) return 0.0;
   const double change = by_clock.change_root_mean * by_clock.change_root_mean;
@@ -53,12 +53,19 @@ double unrest_mpss(const Acceleration& by_clock) {
   return newness * newness * white;
 }
 
+/// By one of the clocks, from where the hand is calmer.
+double unrest_mpss(const Unrest& unrest, Acceleration SeenMotion::*clock) {
+  return std::min(unrest_of(unrest.from_home.*clock), unrest_of(unrest.from_object.*clock));
+}
+
 /// 0 for a hand that moves smoothly, to 1 for one that trembles or whose tracker errs.
 double unrest_share(const Unrest& unrest) {
-  const bool known = unrest.samples >= kEnoughSamples || unrest.by_times.change_root_mean > 0.0;
+  const bool known =
+      unrest.samples >= kEnoughSamples || unrest.from_home.by_times.change_root_mean > 0.0;
   if (!known && unrest.age_s <= kUnknown_s) return kUnknownShare;
   return smoothstep(kCalm_mpss, kRestless_mpss,
-                    std::min(unrest_mpss(unrest.by_times), unrest_mpss(unrest.by_samples)));
+                    std::min(unrest_mpss(unrest, &SeenMotion::by_times),
+                             unrest_mpss(unrest, &SeenMotion::by_samples)));
 }
 
 /// Takes a share of a value into a mean that begins with the first.
@@ -85,6 +92,26 @@ void follow_acceleration(const JointVectors& ways, double elapsed, double unit_s
   if (samples >= 3) follow_mean(root(change_square), share, by_clock.change_root_mean);
 }
 
+bool has_moved(const HandPose& hand, const JointVectors& joints) {
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    if (hand.joints[i].position != joints[i]) return true;
+  }
+  return false;
+}
+
+/// Takes in a sample as seen from one place; of the first of a motion, only where it is.
+void follow_motion(const HandPose& hand, double elapsed_s, double share, const Unrest& unrest,
+                   SeenMotion& seen) {
+  JointVectors ways;
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    ways[i] = hand.joints[i].position - seen.joints[i];
+    seen.joints[i] = hand.joints[i].position;
+  }
+  if (unrest.samples == 0) return;
+  follow_acceleration(ways, elapsed_s, 1.0, unrest.samples, share, seen.by_times);
+  follow_acceleration(ways, 1.0, unrest.apart_s, unrest.samples, share, seen.by_samples);
+}
+
 /// 1 for a finger that is open, 0 for one that is curled.
 double openness(double curl_rad, double at_touch_rad) {
   const double added_rad = curl_rad - std::min(at_touch_rad, kRelaxed_rad);
@@ -95,47 +122,41 @@ double openness(double curl_rad, double at_touch_rad) {
 
 Unrest no_unrest() noexcept {
   Unrest unrest;
-  unrest.joints.fill(Vec3::Zero());
-  for (Acceleration* const by_clock : {&unrest.by_times, &unrest.by_samples}) {
-    by_clock->velocity.fill(Vec3::Zero());
-    by_clock->latest.fill(Vec3::Zero());
+  for (SeenMotion* const seen : {&unrest.from_home, &unrest.from_object}) {
+    seen->joints.fill(Vec3::Zero());
+    for (Acceleration* const by_clock : {&seen->by_times, &seen->by_samples}) {
+      by_clock->velocity.fill(Vec3::Zero());
+      by_clock->latest.fill(Vec3::Zero());
+    }
   }
   return unrest;
 }
 
 double frame_seconds(double seconds, const Unrest& unrest) noexcept {
-  const bool is_calmer =
-      unrest_mpss(unrest.by_samples) < kCalmerShare * unrest_mpss(unrest.by_times);
+  const bool is_calmer = unrest_mpss(unrest, &SeenMotion::by_samples) <
+                         kCalmerShare * unrest_mpss(unrest, &SeenMotion::by_times);
   const bool is_even = is_calmer && seconds < kLost * unrest.frame_s;
   return std::clamp(is_even ? unrest.frame_s : seconds, kShortestFrame_s, kLongestFrame_s);
 }
 
 void break_motion(Unrest& unrest) noexcept { unrest.samples = 0; }
 
-void follow_unrest(const HandPose& hand, double seconds, Unrest& unrest) noexcept {
+void follow_unrest(const HandPose& from_home, const HandPose& from_object, double seconds,
+                   Unrest& unrest) noexcept {
   unrest.elapsed_s += seconds;
   unrest.age_s += seconds;
   if (seconds <= kFarthest_s) {
     follow_mean(seconds, followed(seconds, kUnrestTime_s), unrest.frame_s);
   }
-  bool moved = false;
-  for (std::size_t i = 0; i < kJointCount; ++i) {
-    moved = moved || hand.joints[i].position != unrest.joints[i];
-  }
-  if (unrest.samples > 0 && (!moved || unrest.elapsed_s < kClosest_s)) return;
+  const bool repeats = !has_moved(from_home, unrest.from_home.joints) ||
+                       !has_moved(from_object, unrest.from_object.joints);
+  if (unrest.samples > 0 && (repeats || unrest.elapsed_s < kClosest_s)) return;
   if (unrest.elapsed_s > kFarthest_s) break_motion(unrest);
   const double elapsed_s = std::exchange(unrest.elapsed_s, 0.0);
-  JointVectors ways;
-  for (std::size_t i = 0; i < kJointCount; ++i) {
-    ways[i] = hand.joints[i].position - unrest.joints[i];
-    unrest.joints[i] = hand.joints[i].position;
-  }
-  if (unrest.samples > 0) {
-    const double share = followed(elapsed_s, kUnrestTime_s);
-    follow_mean(elapsed_s, share, unrest.apart_s);
-    follow_acceleration(ways, elapsed_s, 1.0, unrest.samples, share, unrest.by_times);
-    follow_acceleration(ways, 1.0, unrest.apart_s, unrest.samples, share, unrest.by_samples);
-  }
+  const double share = followed(elapsed_s, kUnrestTime_s);
+  if (unrest.samples > 0) follow_mean(elapsed_s, share, unrest.apart_s);
+  follow_motion(from_home, elapsed_s, share, unrest, unrest.from_home);
+  follow_motion(from_object, elapsed_s, share, unrest, unrest.from_object);
   unrest.samples = std::min(unrest.samples + 1, kEnoughSamples);
 }
 

@@ -11,9 +11,11 @@ namespace nade {
 /// Of a hand that was not seen before.
 [[nodiscard]] Unrest no_unrest() noexcept;
 
-/// Takes in a frame of the tracked hand, `seconds` after the last. What repeats the last sample,
-/// or comes at once after it, says nothing; a motion is not followed over a gap.
-void follow_unrest(const HandPose& hand, double seconds, Unrest& unrest) noexcept;
+/// Takes in a frame of the tracked hand, `seconds` after the last, as seen from home and from the
+/// object. What repeats the last sample, or comes at once after it, says nothing; a motion is not
+/// followed over a gap.
+void follow_unrest(const HandPose& from_home, const HandPose& from_object, double seconds,
+                   Unrest& unrest) noexcept;
 
 /// How long a frame counts that came so long after the last: as long as all do, where only their
 /// times are uneven; a millisecond at the least, and 50 at the most.

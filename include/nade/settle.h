@@ -113,18 +113,25 @@ struct Acceleration {
   double change_root_mean = 0.0;  ///< of its change since the sample before
 };
 
+/// How a tracked hand moves as seen from one place, by two clocks.
+struct SeenMotion {
+  JointVectors joints{};    ///< in the last sample, m
+  Acceleration by_times;    ///< as the frames' times have it
+  Acceleration by_samples;  ///< as if all were as far apart
+};
+
 /// Tremor, and the tracker's errors. What the object adds to a restless motion is less to be seen
-/// than on a smooth one. Frames may come unevenly, or only their times may: the clock by which the
-/// hand is calmer is right.
+/// than on a smooth one. Frames may come unevenly, or only their times may; the object may move
+/// under the hand, or with it: where and by the clock by which the hand is calmest, it is seen
+/// right.
 struct Unrest {
   int samples = 0;         ///< of this motion, up to 4: enough for all of it
   double elapsed_s = 0.0;  ///< since the last
   double age_s = 0.0;      ///< since this hand was first seen
   double apart_s = 0.0;    ///< samples, in the mean
   double frame_s = 0.0;    ///< between frames, in the mean: those that repeat a pose are no samples
-  JointVectors joints{};   ///< in the last, m
-  Acceleration by_times;   ///< as the frames' times have it
-  Acceleration by_samples;  ///< as if all were as far apart
+  SeenMotion from_home;
+  SeenMotion from_object;
 };
 
 /// Each finger's middle and last flexion together, radians; 0 for the thumb.
@@ -162,7 +169,8 @@ struct FrameBeforeJump {
 using FramesBeforeJumps = std::array<FrameBeforeJump, 3>;
 
 /// What settle_hand remembers of a hand from frame to frame, and room to work in. All of it is in
-/// the object's frame, and in the world's lengths; but the hand's unrest is as seen from `home`.
+/// the object's frame, and in the world's lengths; but of the hand's unrest half is as seen from
+/// `home`.
 /// A copy would lack that room: it can only be moved.
 struct SettleMemory {
   SettleMemory() = default;
