@@ -61,19 +61,26 @@ constexpr double kReleased_m = 0.0001;
 constexpr double kLongestTurn_rad = 0.3;
 constexpr double kPalmThickness_m = 0.02;
 
+/// A tracked hand.
+struct SeenHand {
+  HandPose from_object;
+  HandPose from_home;
+  /// In the last frame, in the axes of where the object is now; none of a hand that was not seen
+  /// then, or jumped.
+  std::optional<Correction> corrected_before;
+};
+
 /// One frame's work.
 class Settling {
  public:
-  /// `seen` is the tracked hand as seen from home.
-  Settling(const HandPose& tracked, const HandPose& seen, const HandFlesh& flesh, double scale,
-           const ScaledSurface& object, double seconds, const SettleOptions& options,
-           SettleMemory& memory)
+  Settling(const SeenHand& seen, const HandFlesh& flesh, double scale, const ScaledSurface& object,
+           double seconds, const SettleOptions& options, SettleMemory& memory)
       : object_(object),
         seen_(seen),
         options_(options),
         memory_(memory),
-        model_(measure_model(tracked, scale)),
-        search_{flesh, object, pose_flesh(tracked, scale), {}, scale},
+        model_(measure_model(seen.from_object, scale)),
+        search_{flesh, object, pose_flesh(seen.from_object, scale), {}, scale},
         since_last_s_(seconds),
         seconds_(frame_seconds(seconds, memory.unrest)) {
     start();
@@ -128,7 +135,7 @@ class Settling {
   SettledHand finish(const HandPose& posed);
 
   const ScaledSurface& object_;
-  const HandPose& seen_;
+  const SeenHand& seen_;
   const SettleOptions& options_;
   SettleMemory& memory_;
   HandModel model_;
@@ -227,7 +234,7 @@ void Settling::start() {
 
 /// How strongly the object may draw this hand.
 void Settling::find_strengths() {
-  follow_unrest(seen_, model_.tracked, since_last_s_, memory_.unrest);
+  follow_unrest(seen_.from_home, seen_.from_object, since_last_s_, memory_.unrest);
   const FingerCurls curls = curls_of(model_);
   if (memory_.contact.push.isZero()) memory_.contact.curl_at_touch = curls;
   search_.strengths = pull_strengths(memory_.unrest, curls, memory_.contact.curl_at_touch);
@@ -358,8 +365,11 @@ void Settling::remember_frame(const HandPose& drawn) {
 /// What the object let go is found anew at once, and drawn so a little later: it comes back through
 /// the object.
 HandPose Settling::on_its_way_back(const HandPose& settled) {
+  // One whose object is gone, or another, from one frame to the next has not moved itself.
+  const bool is_left = fresh_ && !let_go_from_ && seen_.corrected_before && !is_in_contact();
   if (let_go_from_) start_return(*let_go_from_, correction_, memory_);
-  follow_return(motion_m_, seconds_, is_in_contact(), memory_);
+  if (is_left) start_return(*seen_.corrected_before, correction_, memory_);
+  follow_return(is_left ? 0.0 : motion_m_, seconds_, is_in_contact(), memory_);
   if (memory_.return_share == 0.0) return settled;
   const HandFreedoms left = memory_.return_share * memory_.returning;
   const Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();
@@ -391,27 +401,46 @@ SettledHand Settling::finish(const HandPose& posed) {
   return settled;
 }
 
+/// What it is corrected by, as `SeenHand::corrected_before`.
+std::optional<Correction> corrected_before(const HandPose& tracked, const Quat& object,
+                                           double seconds, const SettleMemory& memory) {
+  const SettledFrame& last = memory.last;
+  if (!last.tracked || seconds > kMissing_s) return std::nullopt;
+  if (largest_motion(moved(*last.tracked, memory.place), tracked) > kTeleport_m) {
+    return std::nullopt;
+  }
+  const Quat turn = object.conjugate() * memory.place.rotation;
+  Correction correction = last.correction;
+  correction.palm.shift = turn * correction.palm.shift;
+  correction.palm.turn = turn * correction.palm.turn * turn.conjugate();
+  return correction;
+}
+
 }  // namespace
 
 SettledHand settle_hand(const HandPose& tracked, const HandFlesh& flesh, double scale,
                         const Object& object, double seconds, const SettleOptions& options,
                         SettleMemory& memory) noexcept {
   NADE_ASSERT(memory.pads.size() == flesh.pads.size());
+  SeenHand seen;
+  const Pose& now = object.placement().pose;
+  seen.corrected_before = corrected_before(tracked, now.rotation, seconds, memory);
   if (memory.surface != &object.surface()) memory.last.tracked.reset();
-  const Pose home = memory.last.tracked ? memory.home : object.placement().pose;
-  const HandPose seen = seen_from(home, tracked);
-  const Pose place = seen_from(home, object.placement().pose);
-  const HandPose hand = moved(seen, place.inverse());
-  if (!is_usable(hand)) {  // the object is nowhere, or too far away for numbers
+  const Pose home = memory.last.tracked ? memory.home : now;
+  const Pose place = seen_from(home, now);
+  seen.from_home = seen_from(home, tracked);
+  seen.from_object = moved(seen.from_home, place.inverse());
+  if (!is_usable(seen.from_object)) {  // the object is nowhere, or too far away for numbers
     forget_hand(memory);
     SettledHand settled;
     settled.hand = tracked;
     return settled;
   }
   memory.home = home;
+  memory.place = home * place;
   const ScaledSurface surface(object);
-  Settling settling(hand, seen, flesh, rounded(scale), surface, seconds, options, memory);
-  return brought_back(memory.home * place, tracked, settling.run());
+  Settling settling(seen, flesh, rounded(scale), surface, seconds, options, memory);
+  return brought_back(memory.place, tracked, settling.run());
 }
 
 }  // namespace nade

@@ -207,6 +207,31 @@ TEST(MovingObject, AHandAtRestRidesOnABallThatGrowsAndShrinks) {
   EXPECT_LT(rest.farthest_m, 0.001);
 }
 
+/// Taken away, or put elsewhere, or not what the engine calls the nearest any more. The hand jumped
+/// by 53 mm to the person's, which rested.
+TEST(MovingObject, AHandComesBackFromAnObjectThatIsGone) {
+  const SphereSurface surface(0.15);
+  const SphereSurface another(0.15);
+  const HandPose hand = laid_hand({{0.0, 0.15, 0.0}, Quat::Identity()}, 0.04);
+  const Quat turned(Eigen::AngleAxisd(1.0, Vec3::UnitX()));
+  for (const bool is_another : {false, true}) {
+    SCOPED_TRACE(is_another ? "another" : "the same");
+    const Object here(surface);
+    const Object far(is_another ? another : surface, {{{5.0, 0.0, 0.0}, turned}, 1.0});
+    HandCorrector corrector(test::settling());
+    HandPose drawn;
+    double fastest_m = 0.0;
+    for (int i = 0; i < 180; ++i) {
+      const Object& object = i < 120 ? here : far;
+      const HandPose now = corrector.update(hand, object, i * kFrame_ns).pose;
+      if (i >= 120) fastest_m = std::max(fastest_m, largest_motion(drawn, now));
+      drawn = now;
+    }
+    EXPECT_LT(fastest_m, 0.003);
+    EXPECT_EQ(largest_motion(drawn, hand), 0.0);
+  }
+}
+
 /// Together they may go and turn as they like: the drawn hand lies on the object as it does on one
 /// that stands still.
 TEST(MovingObject, AHandThatGoesAlongWithItsObjectLiesAsOnOneAtRest) {

@@ -180,7 +180,8 @@ struct SettleMemory {
   SettleMemory& operator=(SettleMemory&&) noexcept = default;
   ~SettleMemory() = default;
 
-  Pose home;  ///< where the object was when the hand was found, in the world
+  Pose home;   ///< where the object was when the hand was found, in the world
+  Pose place;  ///< and in the last frame
   SettledFrame last;
   ContactState contact;              ///< in it
   Correction before;                 ///< that of the frame before it
