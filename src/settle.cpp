@@ -40,12 +40,8 @@ constexpr double kVelocityTime_s = 0.016;
 /// The direction of the object's push is smoothed over this time.
 constexpr double kPushTime_s = 0.20506;
 
-/// A hand that moves farther from one frame to the next, or whose object grows by so much under it,
-/// was lost and found: its pads would not see from so far how deep they are.
-constexpr double kTeleport_m = 0.1;
-/// One that was missing for longer is found anew, unless it presses on: it was in the object, has
-/// not come out, and is no farther from there than this.
-constexpr double kMissing_s = 0.2;
+/// One that was missing for long is found anew, unless it presses on: it was in the object, has not
+/// come out, and is no farther from there than this.
 constexpr double kPressesOn_m = 0.08;
 
 constexpr int kRounds = 3;
@@ -60,15 +56,6 @@ constexpr double kFirstSettled_m = 1e-6;
 constexpr double kReleased_m = 0.0001;
 constexpr double kLongestTurn_rad = 0.3;
 constexpr double kPalmThickness_m = 0.02;
-
-/// A tracked hand.
-struct SeenHand {
-  HandPose from_object;
-  HandPose from_home;
-  /// In the last frame, in the axes of where the object is now; none of a hand that was not seen
-  /// then, or jumped.
-  std::optional<Correction> corrected_before;
-};
 
 /// One frame's work.
 class Settling {
@@ -362,14 +349,18 @@ void Settling::remember_frame(const HandPose& drawn) {
   memory_.scale = object_.scale();
 }
 
-/// What the object let go is found anew at once, and drawn so a little later: it comes back through
-/// the object.
+/// What the object let go, or left, is found anew at once, and drawn so a little later: it comes
+/// back through the object.
 HandPose Settling::on_its_way_back(const HandPose& settled) {
-  // One whose object is gone, or another, from one frame to the next has not moved itself.
-  const bool is_left = fresh_ && !let_go_from_ && seen_.corrected_before && !is_in_contact();
-  if (let_go_from_) start_return(*let_go_from_, correction_, memory_);
-  if (is_left) start_return(*seen_.corrected_before, correction_, memory_);
-  follow_return(is_left ? 0.0 : motion_m_, seconds_, is_in_contact(), memory_);
+  double motion_m = motion_m_;
+  if (let_go_from_) {
+    start_return(*let_go_from_, correction_, memory_);
+  } else if (fresh_ && seen_.corrected_before && !is_in_contact()) {
+    // Its object is gone, or another: it has not moved itself.
+    start_return(*seen_.corrected_before, correction_, memory_);
+    motion_m = 0.0;
+  }
+  follow_return(motion_m, seconds_, is_in_contact(), memory_);
   if (memory_.return_share == 0.0) return settled;
   const HandFreedoms left = memory_.return_share * memory_.returning;
   const Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();
@@ -401,43 +392,19 @@ SettledHand Settling::finish(const HandPose& posed) {
   return settled;
 }
 
-/// What it is corrected by, as `SeenHand::corrected_before`.
-std::optional<Correction> corrected_before(const HandPose& tracked, const Quat& object,
-                                           double seconds, const SettleMemory& memory) {
-  const SettledFrame& last = memory.last;
-  if (!last.tracked || seconds > kMissing_s) return std::nullopt;
-  if (largest_motion(moved(*last.tracked, memory.place), tracked) > kTeleport_m) {
-    return std::nullopt;
-  }
-  const Quat turn = object.conjugate() * memory.place.rotation;
-  Correction correction = last.correction;
-  correction.palm.shift = turn * correction.palm.shift;
-  correction.palm.turn = turn * correction.palm.turn * turn.conjugate();
-  return correction;
-}
-
 }  // namespace
 
 SettledHand settle_hand(const HandPose& tracked, const HandFlesh& flesh, double scale,
                         const Object& object, double seconds, const SettleOptions& options,
                         SettleMemory& memory) noexcept {
   NADE_ASSERT(memory.pads.size() == flesh.pads.size());
-  SeenHand seen;
-  const Pose& now = object.placement().pose;
-  seen.corrected_before = corrected_before(tracked, now.rotation, seconds, memory);
-  if (memory.surface != &object.surface()) memory.last.tracked.reset();
-  const Pose home = memory.last.tracked ? memory.home : now;
-  const Pose place = seen_from(home, now);
-  seen.from_home = seen_from(home, tracked);
-  seen.from_object = moved(seen.from_home, place.inverse());
+  const SeenHand seen = see_hand(tracked, object, seconds, memory);
   if (!is_usable(seen.from_object)) {  // the object is nowhere, or too far away for numbers
     forget_hand(memory);
     SettledHand settled;
     settled.hand = tracked;
     return settled;
   }
-  memory.home = home;
-  memory.place = home * place;
   const ScaledSurface surface(object);
   Settling settling(seen, flesh, rounded(scale), surface, seconds, options, memory);
   return brought_back(memory.place, tracked, settling.run());

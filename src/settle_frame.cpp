@@ -19,18 +19,38 @@ Pose on_grid(const Pose& pose) {
   return result;
 }
 
+/// As `SeenHand::corrected_before`.
+std::optional<Correction> corrected_before(const HandPose& tracked, const Quat& object,
+                                           double seconds, const SettleMemory& memory) {
+  const SettledFrame& last = memory.last;
+  if (!last.tracked || seconds > kMissing_s) return std::nullopt;
+  if (largest_motion(moved(*last.tracked, memory.place), tracked) > kTeleport_m) {
+    return std::nullopt;
+  }
+  const Quat turn = object.conjugate() * memory.place.rotation;
+  Correction correction = last.correction;
+  correction.palm.shift = turn * correction.palm.shift;
+  correction.palm.turn = turn * correction.palm.turn * turn.conjugate();
+  return correction;
+}
+
 }  // namespace
 
 double rounded(double scale) noexcept { return kGrid * std::nearbyint(scale / kGrid); }
 
-HandPose seen_from(const Pose& home, const HandPose& hand) noexcept {
-  HandPose result = moved(hand, home.inverse());
-  for (Pose& joint : result.joints) joint = on_grid(joint);
-  return result;
-}
-
-Pose seen_from(const Pose& home, const Pose& object) noexcept {
-  return on_grid(home.inverse() * object);
+SeenHand see_hand(const HandPose& tracked, const Object& object, double seconds,
+                  SettleMemory& memory) noexcept {
+  SeenHand seen;
+  const Pose& now = object.placement().pose;
+  seen.corrected_before = corrected_before(tracked, now.rotation, seconds, memory);
+  if (memory.surface != &object.surface()) memory.last.tracked.reset();
+  if (!memory.last.tracked) memory.home = now;
+  const Pose place = on_grid(memory.home.inverse() * now);
+  memory.place = memory.home * place;
+  seen.from_home = moved(tracked, memory.home.inverse());
+  for (Pose& joint : seen.from_home.joints) joint = on_grid(joint);
+  seen.from_object = moved(seen.from_home, place.inverse());
+  return seen;
 }
 
 std::optional<RayHit> ScaledSurface::first_hit(const Ray& ray) const noexcept {

@@ -11,9 +11,26 @@ namespace nade {
 // and object moved together then give the same answer, also where the smallest difference would
 // grow: deep in a rough object, or with fingers on both sides of a sheet.
 
-/// As seen from the pose `home`, rounded to 60 nm.
-[[nodiscard]] HandPose seen_from(const Pose& home, const HandPose& hand) noexcept;
-[[nodiscard]] Pose seen_from(const Pose& home, const Pose& object) noexcept;
+/// A hand that goes farther from one frame to the next, or whose object grows by so much under it,
+/// was lost and found: its pads would not see from so far how deep they are.
+inline constexpr double kTeleport_m = 0.1;
+/// One that was not seen for longer may be anywhere.
+inline constexpr double kMissing_s = 0.2;
+
+/// A tracked hand.
+struct SeenHand {
+  HandPose from_object;
+  HandPose from_home;
+  /// In the last frame, in the axes of where the object is now; none of a hand that was not seen
+  /// then, or jumped.
+  std::optional<Correction> corrected_before;
+};
+
+/// Begins a frame: the hand and where the object is, which `memory.home` and `memory.place` say
+/// from then on. Of another object than the last frame's nothing is known.
+[[nodiscard]] SeenHand see_hand(const HandPose& tracked, const Object& object, double seconds,
+                                SettleMemory& memory) noexcept;
+
 /// The hand's size over the flesh's, rounded.
 [[nodiscard]] double rounded(double scale) noexcept;
 
