@@ -1,6 +1,9 @@
 #include "settle_frame.h"
 
 #include <cmath>
+#include <utility>
+
+#include "settle_unrest.h"
 
 namespace nade {
 namespace {
@@ -8,6 +11,8 @@ namespace {
 /// Metres, and parts of a quaternion: far above what rounding does to a hand some metres from the
 /// origin, and far below what can be seen.
 constexpr double kGrid = 1.0 / (1 << 24);
+/// No part of an object that is farther than this from the palm is at the hand.
+constexpr double kAtHand_m = 0.2;
 
 Pose on_grid(const Pose& pose) {
   Pose result;
@@ -19,19 +24,48 @@ Pose on_grid(const Pose& pose) {
   return result;
 }
 
-/// As `SeenHand::corrected_before`.
-std::optional<Correction> corrected_before(const HandPose& tracked, const Quat& object,
-                                           double seconds, const SettleMemory& memory) {
-  const SettledFrame& last = memory.last;
-  if (!last.tracked || seconds > kMissing_s) return std::nullopt;
-  if (largest_motion(moved(*last.tracked, memory.place), tracked) > kTeleport_m) {
-    return std::nullopt;
-  }
-  const Quat turn = object.conjugate() * memory.place.rotation;
-  Correction correction = last.correction;
+/// Whether it was seen in the last frame, and has not jumped in the world since.
+bool goes_on(const HandPose& tracked, double seconds, const SettleMemory& memory) {
+  const std::optional<HandPose>& last = memory.last.tracked;
+  return last && seconds <= kMissing_s &&
+         largest_motion(moved(*last, memory.place), tracked) <= kTeleport_m;
+}
+
+Correction turned(const Quat& turn, Correction correction) {
   correction.palm.shift = turn * correction.palm.shift;
   correction.palm.turn = turn * correction.palm.turn * turn.conjugate();
   return correction;
+}
+
+bool is_at_hand(const Object& object, const HandPose& hand) {
+  SurfaceHint hint;
+  return object.closest_point(hand[Joint::palm].position, kAtHand_m, hint).has_value();
+}
+
+/// Another object, to whose frame `to` leads: what is known of the hand goes on there, what is
+/// known of the surface does not.
+void go_on_at(const Object& object, const Pose& to, SettleMemory& memory) {
+  const Quat& turn = to.rotation;
+  SettledFrame& last = memory.last;
+  last.tracked = moved(*last.tracked, to);
+  last.drawn = moved(last.drawn, to);
+  last.correction = turned(turn, last.correction);
+  memory.before = turned(turn, memory.before);
+  ContactState& contact = memory.contact;
+  for (Vec3* const vector :
+       {&contact.push, &contact.normal, &contact.carried, &contact.lag, &contact.drawn_lag}) {
+    *vector = turn * *vector;
+  }
+  for (JointVectors* const vectors : {&memory.velocity, &memory.pace, &memory.drift}) {
+    for (Vec3& vector : *vectors) vector = turn * vector;
+  }
+  for (const Eigen::Index first : {0, 3}) {
+    memory.returning.segment<3>(first) = turn * Vec3(memory.returning.segment<3>(first));
+  }
+  memory.before_jumps = {};
+  forget_surface(memory);
+  memory.scale = object.placement().scale;
+  memory.shape = object.surface().shape();
 }
 
 }  // namespace
@@ -42,11 +76,16 @@ SeenHand see_hand(const HandPose& tracked, const Object& object, double seconds,
                   SettleMemory& memory) noexcept {
   SeenHand seen;
   const Pose& now = object.placement().pose;
-  seen.corrected_before = corrected_before(tracked, now.rotation, seconds, memory);
-  if (memory.surface != &object.surface()) memory.last.tracked.reset();
+  const bool known = goes_on(tracked, seconds, memory);
+  const bool is_another = memory.surface != &object.surface();
+  const bool taken_over = is_another && known && is_at_hand(object, tracked);
+  if (is_another && !taken_over) memory.last.tracked.reset();
   if (!memory.last.tracked) memory.home = now;
   const Pose place = on_grid(memory.home.inverse() * now);
-  memory.place = memory.home * place;
+  const Pose before = std::exchange(memory.place, memory.home * place);
+  const Pose to = memory.place.inverse() * before;
+  if (known) seen.corrected_before = turned(to.rotation, memory.last.correction);
+  if (taken_over) go_on_at(object, to, memory);
   seen.from_home = moved(tracked, memory.home.inverse());
   for (Pose& joint : seen.from_home.joints) joint = on_grid(joint);
   seen.from_object = moved(seen.from_home, place.inverse());

@@ -26,21 +26,26 @@ void forget_planes(SettleMemory& memory) noexcept {
   }
 }
 
-void forget_frame(SettleMemory& memory) noexcept {
-  memory.last = {};
-  memory.contact = {};
+void forget_surface(SettleMemory& memory) noexcept {
   memory.last_inside = 0;
   memory.geometric.setZero();
-  for (JointVectors* vectors : {&memory.velocity, &memory.pace, &memory.drift, &memory.joints}) {
-    vectors->fill(Vec3::Zero());
-  }
-  memory.travel_m = memory.way_m = memory.rest = memory.strike_mps = memory.clear_s =
-      memory.stuck_s = memory.return_share = 0.0;
+  memory.joints.fill(Vec3::Zero());
+  memory.travel_m = memory.way_m = memory.clear_s = memory.stuck_s = 0.0;
   memory.under_palm = memory.under_hand = memory.under_nearest = {};
   memory.undeformed_s = std::numeric_limits<double>::infinity();
   memory.watches.fill({});
   memory.pads.assign(memory.pads.size(), {});
   break_motion(memory.unrest);
+}
+
+void forget_frame(SettleMemory& memory) noexcept {
+  memory.last = {};
+  memory.contact = {};
+  for (JointVectors* vectors : {&memory.velocity, &memory.pace, &memory.drift}) {
+    vectors->fill(Vec3::Zero());
+  }
+  memory.rest = memory.strike_mps = memory.return_share = 0.0;
+  forget_surface(memory);
 }
 
 void forget_hand(SettleMemory& memory) noexcept {

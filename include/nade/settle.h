@@ -220,6 +220,9 @@ struct SettleMemory {
 /// The surface is another, or the hand elsewhere: what its pads saw does not count.
 void forget_planes(SettleMemory& memory) noexcept;
 
+/// The surface is another's: nothing is known of it.
+void forget_surface(SettleMemory& memory) noexcept;
+
 /// The hand is found anew: what is known of its last frame, and of the surface, does not count. It
 /// may still jump back to where it was.
 void forget_frame(SettleMemory& memory) noexcept;
