@@ -11,8 +11,6 @@ namespace {
 /// Metres, and parts of a quaternion: far above what rounding does to a hand some metres from the
 /// origin, and far below what can be seen.
 constexpr double kGrid = 1.0 / (1 << 24);
-/// No part of an object that is farther than this from the palm is at the hand.
-constexpr double kAtHand_m = 0.2;
 
 Pose on_grid(const Pose& pose) {
   Pose result;
@@ -35,11 +33,6 @@ Correction turned(const Quat& turn, Correction correction) {
   correction.palm.shift = turn * correction.palm.shift;
   correction.palm.turn = turn * correction.palm.turn * turn.conjugate();
   return correction;
-}
-
-bool is_at_hand(const Object& object, const HandPose& hand) {
-  SurfaceHint hint;
-  return object.closest_point(hand[Joint::palm].position, kAtHand_m, hint).has_value();
 }
 
 /// Another object, to whose frame `to` leads: what is known of the hand goes on there, what is
@@ -78,14 +71,13 @@ SeenHand see_hand(const HandPose& tracked, const Object& object, double seconds,
   const Pose& now = object.placement().pose;
   const bool known = goes_on(tracked, seconds, memory);
   const bool is_another = memory.surface != &object.surface();
-  const bool taken_over = is_another && known && is_at_hand(object, tracked);
-  if (is_another && !taken_over) memory.last.tracked.reset();
+  if (is_another && !known) memory.last.tracked.reset();
   if (!memory.last.tracked) memory.home = now;
   const Pose place = on_grid(memory.home.inverse() * now);
   const Pose before = std::exchange(memory.place, memory.home * place);
   const Pose to = memory.place.inverse() * before;
   if (known) seen.corrected_before = turned(to.rotation, memory.last.correction);
-  if (taken_over) go_on_at(object, to, memory);
+  if (is_another && known) go_on_at(object, to, memory);
   seen.from_home = moved(tracked, memory.home.inverse());
   for (Pose& joint : seen.from_home.joints) joint = on_grid(joint);
   seen.from_object = moved(seen.from_home, place.inverse());

@@ -222,14 +222,14 @@ TEST(MovingObject, AHandComesBackFromAnObjectThatIsGone) {
     HandCorrector corrector(test::settling());
     HandPose drawn;
     double fastest_m = 0.0;
-    for (int i = 0; i < 180; ++i) {
+    for (int i = 0; i < 300; ++i) {
       const Object& object = i < 120 ? here : far;
       const HandPose now = corrector.update(hand, object, i * kFrame_ns).pose;
       if (i >= 120) fastest_m = std::max(fastest_m, largest_motion(drawn, now));
       drawn = now;
     }
     EXPECT_LT(fastest_m, 0.003);
-    EXPECT_EQ(largest_motion(drawn, hand), 0.0);
+    EXPECT_LT(largest_motion(drawn, hand), 0.001);
   }
 }
 
@@ -250,7 +250,8 @@ TEST(MovingObject, AHandGoesOnFromOneObjectToAnother) {
     const double time_s = i * kFrame_s;
     const Pose place{{0.05 * std::sin(2.0 * time_s), 0.0, 0.0}, Quat::Identity()};
     const HandPose hand = laid_hand(place, std::min(0.02, 0.05 * time_s - 0.08));
-    const HandPose now = corrector.update(hand, tables[i % 2], i * kFrame_ns).pose;
+    const HandPose now =
+        corrector.update(hand, tables[static_cast<std::size_t>(i % 2)], i * kFrame_ns).pose;
     if (i > 120) {
       fastest_m = std::max(fastest_m, largest_motion(drawn, now));
       for (const Object& table : tables) {
