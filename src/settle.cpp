@@ -207,7 +207,7 @@ void Settling::start() {
   find_strengths();
   correction_ = after(HandFreedoms::Zero());  // into the range of this frame's pose
   last_ = correction_;
-  last_.palm.shift += follow_lag(seconds_, memory_);
+  last_.palm.shift += follow_lag(seconds_, memory_.contact);
   search_.velocity = memory_.velocity;
   if (fresh_) return;
   search_.before = pose_flesh(memory_.last.drawn, model_.scale);
@@ -322,13 +322,13 @@ void Settling::find_push(const Vec3& force) {
 
 void Settling::remember_contact() {
   if (push_.isZero() || memory_.contact.normal.isZero() || is_held_up(memory_)) {
-    forget_slide(memory_);
+    forget_slide(memory_.contact);
   } else {
     const Vec3& palm = model_.tracked[Joint::palm].position;
     const double grown = object_.scale() / memory_.scale;
     const Vec3 before = grown * (*memory_.last.tracked)[Joint::palm].position;
     remember_slide(correction_.palm.shift, along_surface(palm - before, normal_), normal_,
-                   options_.friction, memory_);
+                   options_.friction, memory_.contact);
   }
   memory_.contact.height_m = std::max(0.0, push_.dot(correction_.palm.shift));
   memory_.contact.nearest_m = patches_[kNearestSkin].gap_m + search_.sink_m;

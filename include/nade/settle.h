@@ -170,8 +170,7 @@ using FramesBeforeJumps = std::array<FrameBeforeJump, 3>;
 
 /// What settle_hand remembers of a hand from frame to frame, and room to work in. All of it is in
 /// the object's frame, and in the world's lengths; but of the hand's unrest half is as seen from
-/// `home`.
-/// A copy would lack that room: it can only be moved.
+/// `home`. A copy would lack that room: it can only be moved.
 struct SettleMemory {
   SettleMemory() = default;
   SettleMemory(const SettleMemory&) = delete;
