@@ -356,7 +356,7 @@ HandPose Settling::on_its_way_back(const HandPose& settled) {
   if (let_go_from_) {
     start_return(*let_go_from_, correction_, memory_);
   } else if (fresh_ && seen_.corrected_before && !is_in_contact()) {
-    // Its object is gone, or another: it has not moved itself.
+    // Its object is gone: it has not moved itself.
     start_return(*seen_.corrected_before, correction_, memory_);
     motion_m = 0.0;
   }
