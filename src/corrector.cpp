@@ -111,17 +111,21 @@ HandCorrector::HandCorrector(const CorrectorOptions& options) : options_(options
   NADE_ASSERT(options.hand_length_m >= 0.0 && std::isfinite(options.hand_length_m));
   NADE_ASSERT(options.release_s >= 0.0 && options.release_s <= 1.0);
   NADE_ASSERT(options.contact.full_turn_depth_m >= 0.0);
-  const SettleOptions& settle = options.settle;
-  NADE_ASSERT(settle.softness_m >= 0.0 && settle.softness_m <= 0.02);
-  NADE_ASSERT(settle.softness_depth_m > 0.0);
-  NADE_ASSERT(settle.friction.coefficient >= 0.0 && settle.friction.coefficient <= 2.0);
-  NADE_ASSERT(settle.friction.kinetic >= 0.0 && settle.friction.kinetic <= 1.0);
-  NADE_ASSERT(settle.friction.longest_lag_m >= 0.0);
+  set_settle(options.settle);
   if (options.method != Method::nade) return;
   for (const Handedness side : {Handedness::left, Handedness::right}) {
     NADE_ASSERT(flesh_of(side).side == side && flesh_of(side).hand_length_m > 0.0);
     settle_memory_[index_of(side)] = settle_memory(flesh_of(side));
   }
+}
+
+void HandCorrector::set_settle(const SettleOptions& settle) noexcept {
+  NADE_ASSERT(settle.softness_m >= 0.0 && settle.softness_m <= 0.02);
+  NADE_ASSERT(settle.softness_depth_m > 0.0);
+  NADE_ASSERT(settle.friction.coefficient >= 0.0 && settle.friction.coefficient <= 2.0);
+  NADE_ASSERT(settle.friction.kinetic >= 0.0 && settle.friction.kinetic <= 1.0);
+  NADE_ASSERT(settle.friction.longest_lag_m >= 0.0);
+  options_.settle = settle;
 }
 
 void HandCorrector::reset() noexcept {

@@ -39,6 +39,8 @@ constexpr double kInertiaInAir = 1.3;
 constexpr double kVelocityTime_s = 0.016;
 /// The direction of the object's push is smoothed over this time.
 constexpr double kPushTime_s = 0.20506;
+/// And so is how soft the object is.
+constexpr double kSoftnessTime_s = 0.2;
 
 /// One that was missing for long is found anew, unless it presses on: it was in the object, has not
 /// come out, and is no farther from there than this.
@@ -108,6 +110,7 @@ class Settling {
   [[nodiscard]] bool is_found_anew() const;
   void start_outside();
   void find_strengths();
+  [[nodiscard]] double find_sink();
   [[nodiscard]] Correction after(const HandFreedoms& step) const;
   [[nodiscard]] SettleProblem problem_at(const PosedHand& posed, int round) const;
   [[nodiscard]] bool is_in_air() const {
@@ -194,8 +197,7 @@ void Settling::start() {
   }
   search_.nearest_m = memory_.contact.nearest_m;
   search_.deepest_m = memory_.contact.deepest_m;
-  search_.sink_m =
-      options_.softness_m * followed(memory_.contact.height_m, options_.softness_depth_m);
+  search_.sink_m = find_sink();
   push_ = memory_.contact.push;
   correction_ = memory_.last.correction;
   const double reach_of_motion = jumped_ ? 1.0 : kRowReachOfMotion;
@@ -217,6 +219,16 @@ void Settling::start() {
   coasted_ = coasted_joints(memory_, tracked, normal_, seconds_);
   // Most often it goes on as it went: then the surface needs to be looked at only once.
   correction_ = after(step_between(memory_.before, memory_.last.correction, search_.frame));
+}
+
+/// How far the skin may sink in. An object that becomes softer or harder under the hand takes its
+/// time.
+double Settling::find_sink() {
+  ContactState& contact = memory_.contact;
+  const double share = contact.push.isZero() ? 1.0 : followed(seconds_, kSoftnessTime_s);
+  contact.softness_m += share * (options_.softness_m - contact.softness_m);
+  contact.softness_depth_m += share * (options_.softness_depth_m - contact.softness_depth_m);
+  return contact.softness_m * followed(contact.height_m, contact.softness_depth_m);
 }
 
 /// How strongly the object may draw this hand.

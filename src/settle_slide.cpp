@@ -33,7 +33,7 @@ void remember_slide(const Vec3& shift, const Vec3& stroked, const Vec3& normal,
                     const VisibleFriction& friction, ContactState& contact) noexcept {
   const Vec3 offset = contact.carried + contact.normal.dot(shift) * contact.normal;
   contact.carried = shortened(along_surface(offset, normal), std::max(0.0, normal.dot(shift)));
-  if (friction.coefficient > 0.0) rub(stroked, normal, friction, contact);
+  rub(stroked, normal, friction, contact);
 }
 
 void forget_slide(ContactState& contact) noexcept {

@@ -303,6 +303,56 @@ TEST(Settle, SkinSinksIntoASoftObjectAsFarAsItIsSoft) {
   EXPECT_LT(lowest, -0.003);
 }
 
+/// As where it goes over to another object. At once it sank by 2 mm in a frame and rose by 7.
+TEST(Settle, AHandSinksAndRisesSlowlyWhereTheObjectBecomesSofterOrHarder) {
+  HandCorrector corrector(settling());
+  HandPose before;
+  const auto lowest_after = [&](double softness_m, int from, int to) {
+    SettleOptions settle;
+    settle.softness_m = softness_m;
+    corrector.set_settle(settle);
+    for (int i = from; i < to; ++i) {
+      const HandPose tracked = on_the_way_down(std::min(i, 120), 90, 0.03);
+      const HandPose drawn = corrector.update(tracked, plane(), i * kFrame_ns).pose;
+      if (i > 120) {
+        EXPECT_LT(largest_motion(before, drawn), 0.001) << "frame " << i;
+      }
+      before = drawn;
+    }
+    return lowest_skin(before, plane());
+  };
+  EXPECT_GT(lowest_after(0.0, 0, 180), -1e-4);
+  EXPECT_LT(lowest_after(0.01, 180, 300), -0.006);
+  EXPECT_GT(lowest_after(0.0, 300, 420), -1e-4);
+}
+
+/// What had stayed behind did so for ever.
+TEST(Settle, AHandIsLetGoWhereFrictionIsTakenAway) {
+  CorrectorOptions options = settling();
+  options.settle.friction.coefficient = 1.0;
+  HandCorrector rubbed(options);
+  HandCorrector smooth(settling());
+  HandPose before;
+  double longest_m = 0.0;
+  double left_m = 0.0;
+  for (int i = 0; i <= 400; ++i) {
+    if (i == 250) rubbed.set_settle({});
+    const double along_m = 0.001 * std::max(0, i - 120);
+    const HandPose tracked =
+        i < 120 ? on_the_way_down(i, 90, 0.02) : pressed_hand(0.02, 0.0, {0.0, 0.0, -along_m});
+    const HandPose drawn = rubbed.update(tracked, plane(), i * kFrame_ns).pose;
+    const HandPose free = smooth.update(tracked, plane(), i * kFrame_ns).pose;
+    left_m = (drawn[Joint::palm].position - free[Joint::palm].position).norm();
+    longest_m = std::max(longest_m, left_m);
+    if (i > 120) {
+      EXPECT_LT(largest_motion(before, drawn), 0.004) << "frame " << i;
+    }
+    before = drawn;
+  }
+  EXPECT_GT(longest_m, 0.01);
+  EXPECT_LT(left_m, 0.003);
+}
+
 TEST(Settle, AFrameAllocatesNothingAndRepeatsToTheBit) {
   HandCorrector first(settling());
   HandCorrector second(settling());

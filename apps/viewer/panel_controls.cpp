@@ -41,13 +41,14 @@ void nature_controls(UiKit& ui, Desk& desk, const std::string& still) {
       desk.show_object(alive ? still + kAlive : still);
     }
   }
-  CorrectorOptions options = desk.session.corrector();
-  if (options.method != Method::nade) return;
-  float softness_mm = static_cast<float>(1e3 * options.settle.softness_m);
+  const CorrectorOptions& corrector = desk.session.corrector();
+  if (corrector.method != Method::nade) return;
+  SettleOptions settle = corrector.settle;
+  float softness_mm = static_cast<float>(1e3 * settle.softness_m);
   if (ui.slider("object:soft", "soft", softness_mm, 0.0F, 20.0F, "%.0f mm",
                 "How far the skin sinks into the object, which gives way")) {
-    options.settle.softness_m = 1e-3 * static_cast<double>(softness_mm);
-    desk.session.set_corrector(options);
+    settle.softness_m = 1e-3 * static_cast<double>(softness_mm);
+    desk.session.set_settle(settle);
   }
 }
 

@@ -102,6 +102,15 @@ void Session::set_corrector(const CorrectorOptions& options) {
   restart();
 }
 
+void Session::set_settle(const SettleOptions& settle) {
+  setup_.corrector.settle = settle;
+  if (clip_begun_) {  // the picture shown is corrected anew
+    restart();
+    return;
+  }
+  for (HandCorrector& corrector : correctors_) corrector.set_settle(settle);
+}
+
 void Session::restart() {
   for (HandCorrector& corrector : correctors_) corrector = HandCorrector(setup_.corrector);
   figures_.restart();

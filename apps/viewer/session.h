@@ -66,6 +66,7 @@ class Session {
   /// Back to the hand of the mouse.
   void close_clip();
   void set_corrector(const CorrectorOptions& options);
+  void set_settle(const SettleOptions& settle);
   [[nodiscard]] const CorrectorOptions& corrector() const { return setup_.corrector; }
 
   /// Moves the object so that the recorded palms lie so deep, as `nade correct --press`.

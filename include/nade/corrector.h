@@ -80,6 +80,10 @@ class HandCorrector {
   const CorrectedHand& update(const HandPose& tracked, const Object& object,
                               std::int64_t time_ns) noexcept;
 
+  /// Friction and softness from the next frame on, as where a hand goes over to another object. One
+  /// that rests goes on from where it is drawn.
+  void set_settle(const SettleOptions& settle) noexcept;
+
   /// Forgets everything about the hand so far.
   void reset() noexcept;
 

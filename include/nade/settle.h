@@ -21,7 +21,7 @@ struct VisibleFriction {
   double longest_lag_m = 0.03;  ///< whatever the depth
 };
 
-/// How the whole hand settles on a surface.
+/// What the object under the hand is like.
 struct SettleOptions {
   /// The skin sinks in this far at the most, metres: 0 for a hard object, up to 0.02.
   double softness_m = 0.0;
@@ -146,11 +146,13 @@ inline constexpr std::size_t kSurfaceWatches = 7;
 
 /// How the hand touches the surface.
 struct ContactState {
-  Vec3 push = Vec3::Zero();       ///< unit, the way the object pushes; zero in the air
-  Vec3 normal = Vec3::Zero();     ///< of the surface under the tracked palm; zero in the air
-  double height_m = 0.0;          ///< of the drawn hand over the tracked one along `push`
-  double nearest_m = 0.0;         ///< from the drawn skin that is nearest to the surface to it
-  double deepest_m = 0.0;         ///< of the tracked skin below the surface, the deepest
+  Vec3 push = Vec3::Zero();    ///< unit, the way the object pushes; zero in the air
+  Vec3 normal = Vec3::Zero();  ///< of the surface under the tracked palm; zero in the air
+  double height_m = 0.0;       ///< of the drawn hand over the tracked one along `push`
+  double nearest_m = 0.0;      ///< from the drawn skin that is nearest to the surface to it
+  double deepest_m = 0.0;      ///< of the tracked skin below the surface, the deepest
+  double softness_m = 0.0;     ///< of the object, smoothed
+  double softness_depth_m = 0.02;
   Vec3 carried = Vec3::Zero();    ///< along the surface, from what was stroked so far
   Vec3 lag = Vec3::Zero();        ///< along the surface, by friction
   Vec3 drawn_lag = Vec3::Zero();  ///< the same, smoothed
