@@ -1,5 +1,6 @@
 // Time of one corrected hand-frame: HandCorrector::update over a stroke with the palm pressed 20
-// and 30 mm into each object; at the end how it grows from a thousand triangles to a million.
+// and 30 mm into each object, and of the frame in which a hand is found there; at the end how it
+// grows from a thousand triangles to a million.
 //     corrector_bench
 // Answers are checked first; the exit status is 1 where one is wrong.
 
@@ -26,6 +27,8 @@ using namespace nade;
 
 constexpr std::array kDepths_m{0.02, 0.03};
 constexpr double kDuration_s = 30.0;
+/// A hand is found in one frame of so many.
+constexpr std::size_t kFoundEvery = 30;
 /// Sectors and rings, for a thousand, seventy thousand and a million triangles.
 constexpr std::array<std::array<std::uint32_t, 2>, 3> kBalls{{{32, 17}, {265, 133}, {1000, 501}}};
 
@@ -108,6 +111,15 @@ void time(const Row& row, const Object& object, const StrokeFrames& frames,
   }
 }
 
+/// Hands that are seen for the first time.
+void time_found(const Row& row, const Object& object, const StrokeFrames& frames,
+                bench::Stopwatch& watch) {
+  for (std::size_t i = 0; i < frames.size(); i += kFoundEvery) {
+    HandCorrector corrector(row.options);
+    watch.measure([&] { (void)corrector.update(frames[i].pose, object, frames[i].time_ns); });
+  }
+}
+
 /// A ball of 2 * sectors * (rings - 1) triangles, to be stroked on its side, where they are even.
 Result<LoadedObject> ball(std::uint32_t sectors, std::uint32_t rings) {
   constexpr float kRadius_m = 0.15F;
@@ -136,18 +148,22 @@ Result<Ran> run(const Result<LoadedObject>& loaded, double edges_m) {
   for (const Row& row : rows()) {
     Counts counts;
     bench::Stopwatch watch(kDepths_m.size() * strokes.front().size());
+    bench::Stopwatch found_watch(0);
     for (const StrokeFrames& stroke : strokes) {
       const Counts found = check(row, edges_m, object, stroke);
       counts.frames += found.frames;
       counts.wrong += found.wrong;
       counts.farthest_m = std::max(counts.farthest_m, found.farthest_m);
       time(row, object, stroke, watch);
+      time_found(row, object, stroke, found_watch);
     }
     const bench::Summary times = watch.summary();
     const std::string triangles =
         loaded->soup ? std::to_string(loaded->soup->triangles.size()) : "-";
-    fmt::print("{:<8}{:>10}  {:<8}{:>8}{:>10.1f}{:>10.1f}{:>14.4f}{:>8}\n", loaded->spec, triangles,
-               row.name, counts.frames, 1e-3 * times.median_ns, 1e-3 * times.p99_ns,
+    const bench::Summary found_times = found_watch.summary();
+    fmt::print("{:<8}{:>10}  {:<8}{:>8}{:>10.1f}{:>10.1f}{:>10.0f}{:>10.0f}{:>14.4f}{:>8}\n",
+               loaded->spec, triangles, row.name, counts.frames, 1e-3 * times.median_ns,
+               1e-3 * times.p99_ns, 1e-3 * found_times.median_ns, 1e-3 * found_times.p99_ns,
                1e3 * counts.farthest_m, counts.wrong);
     ran.wrong += counts.wrong;
     if (row.options.method == Method::nade) ran.nade_median_ns = times.median_ns;
@@ -159,8 +175,8 @@ Result<Ran> run(const Result<LoadedObject>& loaded, double edges_m) {
 
 int main() {
   fmt::print("one corrected hand-frame; times in us, palm's skin off the surface in mm\n");
-  fmt::print("{:<8}{:>10}  {:<8}{:>8}{:>10}{:>10}{:>14}{:>8}\n", "object", "triangles", "method",
-             "frames", "median", "p99", "palm off max", "wrong");
+  fmt::print("{:<8}{:>10}  {:<8}{:>8}{:>10}{:>10}{:>10}{:>10}{:>14}{:>8}\n", "object", "triangles",
+             "method", "frames", "median", "p99", "found", "its p99", "palm off max", "wrong");
   std::vector<Result<LoadedObject>> objects;
   for (const char* spec : {"plane", "sphere", "dog"}) objects.push_back(load_object(spec));
   for (const auto& [sectors, rings] : kBalls) objects.push_back(ball(sectors, rings));

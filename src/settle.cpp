@@ -13,6 +13,7 @@
 #include "settle_leave.h"
 #include "settle_lift.h"
 #include "settle_normal.h"
+#include "settle_outside.h"
 #include "settle_pace.h"
 #include "settle_ride.h"
 #include "settle_slide.h"
@@ -29,6 +30,9 @@ namespace {
 /// come to touch it in the frame.
 constexpr double kRowReach_m = 0.0009;
 constexpr double kRowReachOfMotion = 0.33;
+/// Of a hand that is found anew, in the first round, and in the last.
+constexpr double kFirstRowReach_m = 0.1;
+constexpr double kLastRowReach_m = 0.002;
 
 constexpr double kWallStiffness = 1e5;
 /// A joint's mass: a spring of this over the square of the frame's seconds keeps it going. Less in
@@ -47,17 +51,19 @@ constexpr double kSoftnessTime_s = 0.2;
 constexpr double kPressesOn_m = 0.08;
 
 constexpr int kRounds = 3;
-constexpr int kFirstRounds = 40;
+constexpr int kFirstRounds = 30;
 /// A round that moves no skin farther than this is the last.
 constexpr double kSettled_m = 0.0004;
 /// A hand that is found anew rests for long where it is put: each round's steps are shorter by this
 /// factor, and the last is a small one.
-constexpr double kShorterSteps = 0.85;
-constexpr double kFirstSettled_m = 1e-6;
+constexpr double kShorterSteps = 0.75;
+constexpr double kFirstSettled_m = 1e-4;
 /// In the air, a correction smaller than this is over.
 constexpr double kReleased_m = 0.0001;
 constexpr double kLongestTurn_rad = 0.3;
-constexpr double kPalmThickness_m = 0.02;
+
+/// How long a hand found anew may step in a round, of the first one's way.
+double step_share(int round) { return std::pow(kShorterSteps, round); }
 
 /// One frame's work.
 class Settling {
@@ -80,6 +86,9 @@ class Settling {
     const double firmness = search_.strengths[kNearestSkin];  // so that no pull overcomes it
     PosedHand posed = pose_hand(model_, correction_);
     for (int round = 0; round < rounds; ++round) {
+      if (fresh_) {
+        search_.row_reach_m = std::max(kLastRowReach_m, step_share(round) * kFirstRowReach_m);
+      }
       patches_ = find_touches(search_, posed, memory_);
       if (memory_.rows.empty() && is_none(correction_)) break;
       SettleProblem problem = problem_at(posed, round);
@@ -108,7 +117,6 @@ class Settling {
   void start();
   void find_motion();
   [[nodiscard]] bool is_found_anew() const;
-  void start_outside();
   void find_strengths();
   [[nodiscard]] double find_sink();
   [[nodiscard]] Correction after(const HandFreedoms& step) const;
@@ -200,9 +208,12 @@ void Settling::start() {
   search_.sink_m = find_sink();
   push_ = memory_.contact.push;
   correction_ = memory_.last.correction;
-  const double reach_of_motion = jumped_ ? 1.0 : kRowReachOfMotion;
-  search_.row_reach_m = fresh_ ? kDeepest_m : kRowReach_m + reach_of_motion * motion_m_;
-  if (fresh_) start_outside();
+  search_.row_reach_m = kRowReach_m + (jumped_ ? 1.0 : kRowReachOfMotion) * motion_m_;
+  if (fresh_) {
+    const OutsideStart outside = start_outside(search_, tracked[Joint::palm].position);
+    push_ = outside.push;
+    correction_.palm.shift = outside.shift;
+  }
   search_.push = push_;
   normal_ = normal_under_palm(object_, tracked[Joint::palm], push_, motion_m_, seconds_, memory_);
   search_.frame = surface_frame(normal_, tracked[Joint::palm].rotation);
@@ -240,16 +251,6 @@ void Settling::find_strengths() {
   search_.pulls = !is_held_up(memory_);
   // On a hand found anew no pull has to come first.
   search_.pulls_before = fresh_ ? search_.strengths : memory_.contact.pulls;
-}
-
-/// A hand that was lost comes back on the side of the object that its palm is nearest to.
-void Settling::start_outside() {
-  const Vec3& palm = model_.tracked[Joint::palm].position;
-  SurfaceHint hint;
-  const std::optional<SurfacePoint> nearest = object_.closest_point(palm, kDeepest_m, hint);
-  if (!nearest || nearest->signed_distance > 0.0) return;
-  push_ = nearest->normal;
-  correction_.palm.shift = nearest->point - palm + model_.scale * kPalmThickness_m * push_;
 }
 
 Correction Settling::after(const HandFreedoms& step) const {
@@ -292,7 +293,7 @@ SettleProblem Settling::problem_at(const PosedHand& posed, int round) const {
   }
 
   if (fresh_) {  // in steps that the planes are good for
-    const double share = std::pow(kShorterSteps, round);
+    const double share = step_share(round);
     problem.rate.high.setConstant(share * kLongestTurn_rad);
     problem.rate.high.head<3>().setConstant(share * kDeepest_m);
     problem.rate.low = -problem.rate.high;

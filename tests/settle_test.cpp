@@ -161,6 +161,21 @@ TEST(Settle, AHandThatIsFoundAcrossABoardIsDrawnOnItsPalmsSide) {
   }
 }
 
+/// Fingers that were deeper in it than its middle were drawn to its other side: the hand lay across
+/// it, with skin 20 mm inside, and took up to 25 ms for it.
+TEST(Settle, AHandThatIsFoundInAThickBoardIsDrawnOnItsPalmsSide) {
+  const auto board = MeshSurface::build(test::box_mesh({0.3F, 0.02F, 0.3F}), "board").value();
+  const Object object(*board, {{{0.0, -0.02, 0.0}, Quat::Identity()}, 1.0});
+  for (const double depth_m : {0.0, 0.01, 0.03}) {
+    for (const double tilt : {0.0, -0.3}) {
+      HandCorrector corrector(settling());
+      const HandPose drawn = corrector.update(pressed_hand(depth_m, tilt), object, 0).pose;
+      EXPECT_GT(lowest_skin(drawn, object), -0.001) << depth_m << ' ' << tilt;
+      EXPECT_GT(drawn[Joint::middle_tip].position.y(), 0.0) << depth_m << ' ' << tilt;
+    }
+  }
+}
+
 TEST(Settle, AHandOnItsWayOutIsFreeInTheEnd) {
   HandCorrector corrector(settling());
   std::int64_t time_ns = 0;
