@@ -154,8 +154,8 @@ const CorrectedHand& HandCorrector::update(const HandPose& tracked, const Object
 
 void HandCorrector::correct_by_paper(const HandPose& tracked, const Object& object,
                                      std::int64_t time_ns) noexcept {
-  if (&object.surface() != met_) contact_memory_ = {};
-  met_ = &object.surface();
+  if (object.identity() != met_) contact_memory_ = {};
+  met_ = object.identity();
   Contacts contacts =
       find_contacts(tracked, skin_of(tracked), object, options_.contact, contact_memory_);
   const SeatedPalm seated = seat_palm(tracked, contacts[index_of(Part::palm)]);

@@ -31,7 +31,7 @@ namespace {
 constexpr double kRowReach_m = 0.0009;
 constexpr double kRowReachOfMotion = 0.33;
 /// Of a hand that is found anew, in the first round, and in the last.
-constexpr double kFirstRowReach_m = 0.1;
+constexpr double kFirstRowReach_m = 0.04;
 constexpr double kLastRowReach_m = 0.002;
 
 constexpr double kWallStiffness = 1e5;
@@ -50,13 +50,17 @@ constexpr double kSoftnessTime_s = 0.2;
 /// come out, and is no farther from there than this.
 constexpr double kPressesOn_m = 0.08;
 
+/// Another object displaces a hand that goes farther at once, besides so many times its own motion.
+constexpr double kDisplaced_m = 0.005;
+constexpr double kDisplacedOfMotion = 3.0;
+
 constexpr int kRounds = 3;
-constexpr int kFirstRounds = 30;
+constexpr int kFirstRounds = 40;
 /// A round that moves no skin farther than this is the last.
 constexpr double kSettled_m = 0.0004;
 /// A hand that is found anew rests for long where it is put: each round's steps are shorter by this
 /// factor, and the last is a small one.
-constexpr double kShorterSteps = 0.75;
+constexpr double kShorterSteps = 0.85;
 constexpr double kFirstSettled_m = 1e-4;
 /// In the air, a correction smaller than this is over.
 constexpr double kReleased_m = 0.0001;
@@ -129,6 +133,7 @@ class Settling {
   void find_push(const Vec3& force);
   void remember_contact();
   void remember_frame(const HandPose& drawn);
+  [[nodiscard]] bool is_displaced() const;
   [[nodiscard]] HandPose on_its_way_back(const HandPose& settled);
   SettledHand finish(const HandPose& posed);
 
@@ -177,7 +182,7 @@ bool Settling::is_found_anew() const {
   const Vec3& palm = model_.tracked[Joint::palm].position;
   const double growth = std::abs(object_.scale() / memory_.scale - 1.0);
   if (!(motion_m_ + growth * palm.norm() <= kTeleport_m)) return true;
-  if (deformed_ && is_swallowed(object_, memory_)) return true;
+  if ((deformed_ || seen_.at_another) && is_swallowed(object_, memory_)) return true;
   if (since_last_s_ <= kMissing_s) return false;
   const ContactState& contact = memory_.contact;
   const double risen_m = contact.push.dot(palm - (*memory_.last.tracked)[Joint::palm].position);
@@ -195,7 +200,7 @@ void Settling::start() {
   search_.speed_mps = motion_m_ / seconds_;
   fresh_ = is_found_anew();
   if (!fresh_ && follow_leaving(search_, memory_)) {
-    let_go_from_ = memory_.last.correction;
+    let_go_from_ = memory_.shown;
     fresh_ = true;
   }
   if (fresh_) {
@@ -357,7 +362,7 @@ void Settling::remember_frame(const HandPose& drawn) {
   memory_.last = now;
   memory_.fresh = fresh_;
   watch_surface(object_, deformed_ && !fresh_, seconds_, memory_);
-  memory_.surface = &object_.surface();
+  memory_.object = object_.identity();
   memory_.shape = object_.surface().shape();
   memory_.scale = object_.scale();
 }
@@ -368,16 +373,28 @@ HandPose Settling::on_its_way_back(const HandPose& settled) {
   double motion_m = motion_m_;
   if (let_go_from_) {
     start_return(*let_go_from_, correction_, memory_);
-  } else if (fresh_ && seen_.corrected_before && !is_in_contact()) {
-    // Its object is gone: it has not moved itself.
-    start_return(*seen_.corrected_before, correction_, memory_);
-    motion_m = 0.0;
+  } else if (is_displaced()) {
+    start_return(seen_.before->correction, correction_, memory_);
+    forget_drift(memory_);
+    motion_m = 0.0;  // it has not moved itself
   }
   follow_return(motion_m, seconds_, is_in_contact(), memory_);
+  memory_.shown = correction_;
   if (memory_.return_share == 0.0) return settled;
   const HandFreedoms left = memory_.return_share * memory_.returning;
   const Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();
-  return pose_hand(model_, after_step(correction_, left, frame, model_.ranges)).hand;
+  memory_.shown = after_step(correction_, left, frame, model_.ranges);
+  return pose_hand(model_, memory_.shown).hand;
+}
+
+/// Whether its object is gone, or another is there, in which the drawn hand was.
+bool Settling::is_displaced() const {
+  if (!seen_.before) return false;
+  if (fresh_) return true;
+  if (!seen_.at_another) return false;
+  const auto& [correction, way_m] = *seen_.before;
+  const HandFreedoms step = step_between(correction, correction_, Eigen::Matrix3d::Identity());
+  return reach_of(step) > kDisplaced_m + kDisplacedOfMotion * way_m;
 }
 
 SettledHand Settling::finish(const HandPose& posed) {
@@ -411,13 +428,10 @@ SettledHand settle_hand(const HandPose& tracked, const HandFlesh& flesh, double 
                         const Object& object, double seconds, const SettleOptions& options,
                         SettleMemory& memory) noexcept {
   NADE_ASSERT(memory.pads.size() == flesh.pads.size());
-  const SeenHand seen = see_hand(tracked, object, seconds, memory);
-  if (!is_usable(seen.from_object)) {  // the object is nowhere, or too far away for numbers
-    forget_hand(memory);
-    SettledHand settled;
-    settled.hand = tracked;
-    return settled;
+  if (is_nowhere(object, tracked)) {
+    return settle_hand(tracked, flesh, scale, nothing(), seconds, options, memory);
   }
+  const SeenHand seen = see_hand(tracked, object, seconds, memory);
   const ScaledSurface surface(object);
   Settling settling(seen, flesh, rounded(scale), surface, seconds, options, memory);
   return brought_back(memory.place, tracked, settling.run());

@@ -1,5 +1,6 @@
 #include "settle_frame.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -22,11 +23,17 @@ Pose on_grid(const Pose& pose) {
   return result;
 }
 
-/// Whether it was seen in the last frame, and has not jumped in the world since.
-bool goes_on(const HandPose& tracked, double seconds, const SettleMemory& memory) {
-  const std::optional<HandPose>& last = memory.last.tracked;
-  return last && seconds <= kMissing_s &&
-         largest_motion(moved(*last, memory.place), tracked) <= kTeleport_m;
+/// How far it has come in the world since the last frame, from where it was or from where it would
+/// have gone on to, as in a car; none if it was not seen then, or jumped.
+std::optional<double> way_of(const HandPose& tracked, double seconds, SettleMemory& memory) {
+  const Vec3 went_before = std::exchange(memory.went, Vec3::Zero());
+  if (!memory.last.tracked || seconds > kMissing_s) return std::nullopt;
+  HandPose last = moved(*memory.last.tracked, memory.place);
+  memory.went = tracked[Joint::palm].position - last[Joint::palm].position;
+  const double from_there_m = largest_motion(last, tracked);
+  for (Pose& joint : last.joints) joint.position += went_before;
+  const double way_m = std::min(from_there_m, largest_motion(last, tracked));
+  return way_m <= kTeleport_m ? std::optional(way_m) : std::nullopt;
 }
 
 Correction turned(const Quat& turn, Correction correction) {
@@ -61,7 +68,30 @@ void go_on_at(const Object& object, const Pose& to, SettleMemory& memory) {
   memory.shape = object.surface().shape();
 }
 
+class NoSurface final : public Surface {
+ public:
+  [[nodiscard]] std::optional<RayHit> first_hit(const Ray& /*ray*/) const noexcept override {
+    return std::nullopt;
+  }
+  [[nodiscard]] std::optional<SurfacePoint> closest_point(
+      const Vec3& /*query*/, double /*max_distance*/,
+      SurfaceHint& /*hint*/) const noexcept override {
+    return std::nullopt;
+  }
+};
+
 }  // namespace
+
+bool is_nowhere(const Object& object, const HandPose& tracked) noexcept {
+  const Placement& placement = object.placement();
+  return placement.scale == 0.0 || !is_usable(moved(tracked, placement.pose.inverse()));
+}
+
+const Object& nothing() noexcept {
+  static const NoSurface kNoSurface;
+  static const Object kNothing(kNoSurface);
+  return kNothing;
+}
 
 double rounded(double scale) noexcept { return kGrid * std::nearbyint(scale / kGrid); }
 
@@ -69,15 +99,16 @@ SeenHand see_hand(const HandPose& tracked, const Object& object, double seconds,
                   SettleMemory& memory) noexcept {
   SeenHand seen;
   const Pose& now = object.placement().pose;
-  const bool known = goes_on(tracked, seconds, memory);
-  const bool is_another = memory.surface != &object.surface();
-  if (is_another && !known) memory.last.tracked.reset();
+  const std::optional<double> way_m = way_of(tracked, seconds, memory);
+  const bool is_another = memory.object != object.identity();
+  if (is_another && !way_m) memory.last.tracked.reset();
   if (!memory.last.tracked) memory.home = now;
   const Pose place = on_grid(memory.home.inverse() * now);
   const Pose before = std::exchange(memory.place, memory.home * place);
   const Pose to = memory.place.inverse() * before;
-  if (known) seen.corrected_before = turned(to.rotation, memory.last.correction);
-  if (is_another && known) go_on_at(object, to, memory);
+  if (way_m) seen.before = ShownBefore{turned(to.rotation, memory.shown), *way_m};
+  seen.at_another = is_another && way_m;
+  if (seen.at_another) go_on_at(object, to, memory);
   seen.from_home = moved(tracked, memory.home.inverse());
   for (Pose& joint : seen.from_home.joints) joint = on_grid(joint);
   seen.from_object = moved(seen.from_home, place.inverse());

@@ -17,19 +17,30 @@ inline constexpr double kTeleport_m = 0.1;
 /// One that was not seen for longer may be anywhere.
 inline constexpr double kMissing_s = 0.2;
 
+/// How a hand was drawn in the last frame, in the axes of where the object is now, and how far the
+/// tracked one has come since by itself.
+struct ShownBefore {
+  Correction correction;
+  double way_m = 0.0;
+};
+
 /// A tracked hand.
 struct SeenHand {
   HandPose from_object;
   HandPose from_home;
-  /// In the last frame, in the axes of where the object is now; none of a hand that was not seen
-  /// then, or jumped.
-  std::optional<Correction> corrected_before;
+  std::optional<ShownBefore> before;  ///< none of one that was not seen then, or jumped
+  bool at_another = false;            ///< it goes on at another object than the last frame's
 };
 
 /// Begins a frame: the hand and where the object is, which `memory.home` and `memory.place` say
 /// from then on. Of another object than the last frame's nothing is known.
 [[nodiscard]] SeenHand see_hand(const HandPose& tracked, const Object& object, double seconds,
                                 SettleMemory& memory) noexcept;
+
+/// Whether an object is not there, or too far from the hand for numbers.
+[[nodiscard]] bool is_nowhere(const Object& object, const HandPose& tracked) noexcept;
+/// What stands in for it.
+[[nodiscard]] const Object& nothing() noexcept;
 
 /// The hand's size over the flesh's, rounded.
 [[nodiscard]] double rounded(double scale) noexcept;
@@ -38,9 +49,12 @@ struct SeenHand {
 class ScaledSurface {
  public:
   explicit ScaledSurface(const Object& object)
-      : surface_(object.surface()), scale_(object.placement().scale) {}
+      : surface_(object.surface()),
+        identity_(object.identity()),
+        scale_(object.placement().scale) {}
 
   [[nodiscard]] const Surface& surface() const { return surface_; }
+  [[nodiscard]] const ObjectIdentity& identity() const { return identity_; }
   [[nodiscard]] double scale() const { return scale_; }
   [[nodiscard]] std::optional<RayHit> first_hit(const Ray& ray) const noexcept;
   [[nodiscard]] std::optional<SurfacePoint> closest_point(const Vec3& query, double max_distance_m,
@@ -48,6 +62,7 @@ class ScaledSurface {
 
  private:
   const Surface& surface_;
+  ObjectIdentity identity_;
   double scale_;
 };
 

@@ -123,6 +123,12 @@ void follow_pace(const SettledFrame& now, double seconds, bool jumped,
   }
 }
 
+void forget_drift(SettleMemory& memory) noexcept {
+  for (std::size_t i = 0; i < kJointCount; ++i) memory.pace[i] -= memory.drift[i];
+  memory.drift.fill(Vec3::Zero());
+  memory.before = memory.last.correction;
+}
+
 JointVectors coasted_joints(const SettleMemory& memory, const HandPose& tracked, const Vec3& normal,
                             double seconds) noexcept {
   const SettledFrame& last = memory.last;

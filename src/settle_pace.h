@@ -38,6 +38,9 @@ void follow_strike(const HandPose& from, const HandPose& to, const Vec3& normal,
 void follow_pace(const SettledFrame& now, double seconds, bool jumped,
                  SettleMemory& memory) noexcept;
 
+/// The object put the hand where it is: it does not go on so.
+void forget_drift(SettleMemory& memory) noexcept;
+
 /// Where the drawn joints are if each keeps its way from the tracked one, and what changed of that
 /// in the last frame goes on, a little slower. A hand that strikes the object deep rests on it,
 /// whatever the person's does: along the surface's normal what keeps still keeps so. Out of the

@@ -67,12 +67,13 @@ std::optional<SurfacePoint> SphereSurface::closest_point(const Vec3& query, doub
   return SurfacePoint{radius_ * normal, normal, signed_distance};
 }
 
-Object::Object(const Surface& surface, const Placement& placement)
-    : surface_(&surface), placement_(placement) {
-  NADE_ASSERT(std::isfinite(placement.scale) && placement.scale > 0.0);
+Object::Object(const Surface& surface, const Placement& placement, std::uint64_t instance)
+    : surface_(&surface), placement_(placement), instance_(instance) {
+  NADE_ASSERT(std::isfinite(placement.scale) && placement.scale >= 0.0);
 }
 
 std::optional<RayHit> Object::first_hit(const Ray& ray_world) const noexcept {
+  if (placement_.scale == 0.0) return std::nullopt;
   const Ray ray_local{placement_.to_local(ray_world.origin),
                       placement_.pose.rotation.conjugate() * ray_world.direction,
                       ray_world.max_distance / placement_.scale};
@@ -86,6 +87,7 @@ std::optional<RayHit> Object::first_hit(const Ray& ray_world) const noexcept {
 
 std::optional<SurfacePoint> Object::closest_point(const Vec3& query_world, double max_distance,
                                                   SurfaceHint& hint) const noexcept {
+  if (placement_.scale == 0.0) return std::nullopt;
   std::optional<SurfacePoint> found = surface_->closest_point(
       placement_.to_local(query_world), max_distance / placement_.scale, hint);
   if (!found) return std::nullopt;

@@ -32,7 +32,8 @@ SurfaceGroup::SurfaceGroup(std::vector<Object> members)
 
 void SurfaceGroup::place(std::size_t member, const Placement& placement) noexcept {
   NADE_ASSERT(member < members_.size());
-  members_[member] = Object(members_[member].surface(), placement);
+  Object& moved = members_[member];
+  moved = Object(moved.surface(), placement, moved.identity().instance);
   placing_ = new_shape();
 }
 

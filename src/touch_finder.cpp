@@ -58,8 +58,6 @@ constexpr double kBrakeDamping = 18583.0;
 /// goes in so long, and so many times as long at the most.
 constexpr double kLater_s = 0.0116;
 constexpr double kLongestWay = 2.0;
-/// While skin that is so far gets a row, on a hand found anew, one of each pad is enough.
-constexpr double kManyRows_m = 0.01;
 /// What could come no nearer than this to where it brakes needs no row, by `row_reach_m`.
 constexpr double kRowReachOfBrake = 0.4997;
 
@@ -233,7 +231,6 @@ double add_skin(const TouchSearch& search, const Landing& landing, const NearPad
   const Vec3& normal = plane.normal;
   const Cushion cushion = cushion_under(search, near, normal);
   const FleshPad& pad = near.pad;
-  const bool is_coarse = !search.before && search.row_reach_m > kManyRows_m;
   PatchTouch lowest;
   ContactRow* braking = nullptr;
   for (std::size_t k = pad.first; k < pad.first + pad.count; ++k) {
@@ -247,15 +244,11 @@ double add_skin(const TouchSearch& search, const Landing& landing, const NearPad
       touch.depth_m = normal.dot(plane.point - search.tracked.position(point));
       join(touch, patches[index_of(*pad.part)]);
     }
-    const bool needs_row = !is_coarse && gap_m <= search.row_reach_m + cushion_m;
-    ContactRow* const row = needs_row ? add_row(search, posed, touch, rows) : nullptr;
+    const bool near_surface = gap_m <= search.row_reach_m + cushion_m;
+    ContactRow* const row = near_surface ? add_row(search, posed, touch, rows) : nullptr;
     if (gap_m >= lowest.gap_m) continue;
     lowest = touch;
     braking = row;
-  }
-  if (is_coarse) {
-    if (lowest.gap_m <= search.row_reach_m) add_row(search, posed, lowest, rows);
-    return lowest.gap_m;
   }
   const double before_m = room_above(search, lowest.gap_m) + cushion.approach_m;
   if (before_m <= 0.0 || before_m >= landing.highest(cushion.approach_m)) return lowest.gap_m;

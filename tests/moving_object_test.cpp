@@ -264,6 +264,89 @@ TEST(MovingObject, AHandGoesOnFromOneObjectToAnother) {
   EXPECT_LT(deepest_m, 0.004);
 }
 
+/// What the drawn hand does beyond three times the tracked one's motion, and how deep it is in the
+/// end; the hand and its objects go along at `speed_mps`.
+struct Displaced {
+  double pop_m = 0.0;
+  double deepest_m = 0.0;
+};
+template <class Hand, class Give>
+Displaced displaced(double speed_mps, const Hand& hand_at, const Give& give) {
+  constexpr int kFrames = 300;
+  HandCorrector corrector(test::settling());
+  Displaced result;
+  HandPose tracked;
+  HandPose drawn;
+  for (int i = 0; i < kFrames; ++i) {
+    const Pose ride{{speed_mps * i * kFrame_s, 0.0, 0.0}, Quat::Identity()};
+    const HandPose hand = hand_at(i * kFrame_s);
+    const Object here = give(i * kFrame_s);
+    const Placement there{
+        {ride.position + here.placement().pose.position, here.placement().pose.rotation},
+        here.placement().scale};
+    const Object object(here.surface(), there, here.identity().instance);
+    const HandPose now =
+        moved(corrector.update(moved(hand, ride), object, i * kFrame_ns).pose, ride.inverse());
+    if (i > 0) {
+      const double allowed_m = 3.0 * largest_motion(tracked, hand);
+      result.pop_m = std::max(result.pop_m, largest_motion(drawn, now) - allowed_m);
+    }
+    tracked = hand;
+    drawn = now;
+  }
+  result.deepest_m = -test::lowest_skin(drawn, give(kFrames * kFrame_s), 0.1);
+  return result;
+}
+
+/// Two of a kind, which share their surface, are given by turns: the nearer one. Fingers over the
+/// other sink in until it is that; at once out, they jumped by 20 mm, and where the two were taken
+/// for one that is suddenly elsewhere by 97.
+TEST(MovingObject, FingersComeSlowlyOutOfAnotherObjectOfItsKind) {
+  const auto surface = MeshSurface::build(test::box_mesh({0.2F, 0.02F, 0.15F}), "table").value();
+  const auto hand_at = [](double time_s) {
+    const double x_m = -0.2 + 0.4 * std::clamp((time_s - 1.0) / 1.5, 0.0, 1.0);
+    return laid_hand({{x_m, 0.0, 0.0}, Quat::Identity()}, std::min(0.03, 0.11 * time_s - 0.08));
+  };
+  const auto give = [&](double time_s) {
+    const bool second = hand_at(time_s)[Joint::palm].position.x() > 0.0;
+    const Pose place{{second ? 0.2 : -0.2, -0.02, 0.0}, Quat::Identity()};
+    return Object(*surface, {place, 1.0}, second ? 2 : 1);
+  };
+  for (const double speed_mps : {0.0, 5.0, 20.0}) {
+    const Displaced result = displaced(speed_mps, hand_at, give);
+    EXPECT_LT(result.pop_m, 0.004) << speed_mps << " m/s";
+    EXPECT_LT(result.deepest_m, 0.001) << speed_mps << " m/s";
+  }
+}
+
+/// It jumped by 86 mm.
+TEST(MovingObject, AHandComesSlowlyOutOfAnObjectThatAppearsInIt) {
+  const PlaneSurface table;
+  const SphereSurface ball(0.06);
+  const auto hand_at = [](double time_s) {
+    return laid_hand({{}, Quat::Identity()}, std::min(0.03, 0.11 * time_s - 0.08));
+  };
+  const auto give = [&](double time_s) { return time_s < 2.0 ? Object(table) : Object(ball); };
+  const Displaced result = displaced(0.0, hand_at, give);
+  EXPECT_LT(result.pop_m, 0.006);
+  EXPECT_LT(result.deepest_m, 0.001);
+}
+
+/// Some engines hide what they do not need so, or let it grow from nothing.
+TEST(MovingObject, AnObjectOfScaleZeroIsNotThere) {
+  const SphereSurface ball(0.15);
+  const HandPose hand = laid_hand({{0.0, 0.15, 0.0}, Quat::Identity()}, 0.03);
+  HandCorrector corrector(test::settling());
+  EXPECT_TRUE(test::same_bits(hand, corrector.update(hand, Object(ball, {{}, 0.0}), 0).pose));
+  HandPose drawn;
+  for (int i = 1; i < 120; ++i) {
+    const Object object(ball, {{}, std::min(1.0, i / 60.0)});
+    drawn = corrector.update(hand, object, i * kFrame_ns).pose;
+    EXPECT_TRUE(test::all_finite(drawn)) << i;
+  }
+  EXPECT_GT(test::lowest_skin(drawn, Object(ball)), -0.001);
+}
+
 /// Together they may go and turn as they like: the drawn hand lies on the object as it does on one
 /// that stands still.
 TEST(MovingObject, AHandThatGoesAlongWithItsObjectLiesAsOnOneAtRest) {

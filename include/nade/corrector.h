@@ -107,7 +107,7 @@ class HandCorrector {
 
   CorrectorOptions options_;
   ContactMemory contact_memory_;
-  const Surface* met_ = nullptr;               ///< that it is of; only its address counts
+  ObjectIdentity met_;                         ///< that it is of
   std::array<SettleMemory, 2> settle_memory_;  ///< by index_of(Handedness)
   CorrectedHand result_;
   std::optional<Frame> last_;

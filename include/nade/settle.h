@@ -181,19 +181,21 @@ struct SettleMemory {
   SettleMemory& operator=(SettleMemory&&) noexcept = default;
   ~SettleMemory() = default;
 
-  Pose home;   ///< where the object was when the hand was found, in the world
-  Pose place;  ///< and in the last frame
+  Pose home;                 ///< where the object was when the hand was found, in the world
+  Pose place;                ///< and in the last frame
+  Vec3 went = Vec3::Zero();  ///< the tracked palm's way in the last frame, in the world
   SettledFrame last;
-  ContactState contact;              ///< in it
-  Correction before;                 ///< that of the frame before it
-  bool fresh = false;                ///< whether the hand was found anew in it
-  const Surface* surface = nullptr;  ///< the last frame's; only its address counts
-  std::uint64_t shape = 0;           ///< the surface's, in the last frame
-  double scale = 1.0;                ///< and the object's
-  double undeformed_s = 0.0;         ///< how long both have been the same
-  SurfaceHint under_palm;            ///< where the surface's normal was found
-  SurfaceHint under_hand;            ///< and as seen from above the hand
-  SurfaceHint under_nearest;         ///< and under the nearest drawn skin
+  ContactState contact;       ///< in it
+  Correction before;          ///< that of the frame before it
+  Correction shown;           ///< that of it as drawn, which may be on its way there
+  bool fresh = false;         ///< whether the hand was found anew in it
+  ObjectIdentity object;      ///< the last frame's
+  std::uint64_t shape = 0;    ///< the surface's, in the last frame
+  double scale = 1.0;         ///< and the object's
+  double undeformed_s = 0.0;  ///< how long both have been the same
+  SurfaceHint under_palm;     ///< where the surface's normal was found
+  SurfaceHint under_hand;     ///< and as seen from above the hand
+  SurfaceHint under_nearest;  ///< and under the nearest drawn skin
   double clear_s = 0.0;  ///< how long the tracked hand is clear of the object, the drawn one far
   double stuck_s = 0.0;  ///< how long the drawn one is held up; the longer, the farther off it is
   HandFreedoms returning = HandFreedoms::Zero();  ///< from where a hand that was let go comes back

@@ -40,7 +40,8 @@ struct SurfaceHint {
 
 /// A solid's surface, in its own frame. Implement it to bring an object of your own (a height
 /// field, a distance function); queries must be thread-safe, must not allocate, and give no
-/// result for a query that is not finite.
+/// result for a query that is not finite. One whose form may change says so by `shape`: a hand that
+/// rests on it would else be left inside.
 class Surface {
  public:
   virtual ~Surface() = default;
@@ -83,14 +84,26 @@ class SphereSurface final : public Surface {
   double radius_;
 };
 
+/// Which object it is, wherever it stands and however it deforms.
+struct ObjectIdentity {
+  const Surface* surface = nullptr;  ///< only its address counts
+  std::uint64_t instance = 0;
+  bool operator==(const ObjectIdentity&) const = default;
+};
+
 /// A surface where it stands in the world: the object the hand strokes. Does not own the
 /// surface. All queries and answers are in world coordinates.
 class Object {
  public:
-  /// `placement.scale` > 0. `surface` must outlive the object.
-  explicit Object(const Surface& surface, const Placement& placement = {});
+  /// `placement.scale` >= 0, where 0 leaves nothing to touch. `surface` must outlive the object.
+  /// Objects that share one, as two chairs of a kind, are told apart by `instance`, any number:
+  /// else a hand that goes over from one to the other would be on one that is suddenly elsewhere.
+  explicit Object(const Surface& surface, const Placement& placement = {},
+                  std::uint64_t instance = 0);
+  explicit Object(const Surface&&, const Placement& = {}, std::uint64_t = 0) = delete;
 
   [[nodiscard]] const Surface& surface() const { return *surface_; }
+  [[nodiscard]] ObjectIdentity identity() const { return {surface_, instance_}; }
   [[nodiscard]] const Placement& placement() const { return placement_; }
 
   [[nodiscard]] std::optional<RayHit> first_hit(const Ray& ray_world) const noexcept;
@@ -101,6 +114,7 @@ class Object {
  private:
   const Surface* surface_;
   Placement placement_;
+  std::uint64_t instance_;
 };
 
 }  // namespace nade
