@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "nade/assert.h"
 #include "ramps.h"
@@ -27,6 +28,8 @@ constexpr double kShortestGap_s = 0.1;
 constexpr double kLateClock_s = 0.005;
 /// The mean hand length forgets frames older than about this many.
 constexpr std::int64_t kLengthFrames = 512;
+
+constexpr double kLargestHand_m = 0.5;
 
 constexpr double kThinnestTip_m = 0.003;
 constexpr double kThickestTip_m = 0.015;
@@ -108,9 +111,13 @@ std::optional<SkinDepths> believable_radii(const HandPose& hand) noexcept {
 
 HandCorrector::HandCorrector(const CorrectorOptions& options) : options_(options) {
   NADE_ASSERT(options.skin_hand_length_m > 0.0);
-  NADE_ASSERT(options.hand_length_m >= 0.0 && std::isfinite(options.hand_length_m));
+  NADE_ASSERT(options.hand_length_m >= 0.0 && options.hand_length_m < kLargestHand_m);
   NADE_ASSERT(options.release_s >= 0.0 && options.release_s <= 1.0);
-  NADE_ASSERT(options.contact.full_turn_depth_m >= 0.0);
+  NADE_ASSERT(options.contact.full_turn_depth_m >= 0.0 && options.contact.full_turn_depth_m <= 0.2);
+  NADE_ASSERT(options.contact.push_through_limit_m >= 0.0);
+  NADE_ASSERT(options.fingers.max_ray_turn_rad >= 0.0 &&
+              options.fingers.max_ray_turn_rad <= 0.5 * std::numbers::pi);
+  for (const double depth_m : options.skin.depth_m) NADE_ASSERT(std::isfinite(depth_m));
   set_settle(options.settle);
   if (options.method != Method::nade) return;
   for (const Handedness side : {Handedness::left, Handedness::right}) {

@@ -193,7 +193,7 @@ bool Settling::is_found_anew() const {
 void Settling::start() {
   const HandPose& tracked = model_.tracked;
   deformed_ = object_.scale() != memory_.scale || object_.surface().shape() != memory_.shape;
-  if (deformed_ && memory_.last.tracked) ride_along(object_, memory_);
+  if (deformed_ && memory_.last.tracked) ride_along(object_, seconds_, memory_);
   if (!memory_.last.tracked) memory_.before_jumps = {};  // from who knows when
   find_motion();
   search_.seconds = seconds_;

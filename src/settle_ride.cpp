@@ -20,6 +20,8 @@ constexpr double kBeyond_m = 0.06;
 constexpr double kDeforming_s = 0.25;
 /// What was watched is gone if the surface's normal turned so far: the cosine.
 constexpr double kSameSurface = 0.5;
+/// What sinks faster leaves the hand behind; it may have been taken away.
+constexpr double kFastestSinking_mps = 0.5;
 /// A turn weighs as much as a shift by what it moves so far from the palm.
 constexpr double kTurnArm_m = 0.1;
 /// What the surface leaves open, as how it goes along itself, is as little as can be.
@@ -31,7 +33,7 @@ constexpr double kSwallowed_m = 0.04;
 using SurfaceMotion = Eigen::Matrix<double, 6, 1>;  // shift, and turn times kTurnArm_m
 
 /// How the watched surface moved, about the drawn palm.
-SurfaceMotion motion_under_hand(const ScaledSurface& object, SettleMemory& memory) {
+SurfaceMotion motion_under_hand(const ScaledSurface& object, double seconds, SettleMemory& memory) {
   const HandPose& drawn = memory.last.drawn;
   Eigen::Matrix<double, 6, 6> stiffness = kLeftOpen * Eigen::Matrix<double, 6, 6>::Identity();
   SurfaceMotion force = SurfaceMotion::Zero();
@@ -47,7 +49,8 @@ SurfaceMotion motion_under_hand(const ScaledSurface& object, SettleMemory& memor
     row << normal, lever.cross(normal) / kTurnArm_m;
     const double nearer_m = std::min(now->signed_distance, watch.before->signed_distance);
     const double weight = smoothstep(kBeyond_m, kRests_m, nearer_m);
-    const double rise_m = watch.before->signed_distance - now->signed_distance;
+    const double rise_m = std::max(watch.before->signed_distance - now->signed_distance,
+                                   -kFastestSinking_mps * seconds);
     stiffness += weight * row * row.transpose();
     force += weight * rise_m * row;
   }
@@ -56,8 +59,8 @@ SurfaceMotion motion_under_hand(const ScaledSurface& object, SettleMemory& memor
 
 }  // namespace
 
-void ride_along(const ScaledSurface& object, SettleMemory& memory) noexcept {
-  const SurfaceMotion motion = motion_under_hand(object, memory);
+void ride_along(const ScaledSurface& object, double seconds, SettleMemory& memory) noexcept {
+  const SurfaceMotion motion = motion_under_hand(object, seconds, memory);
   const Vec3 middle = memory.last.drawn[Joint::palm].position;
   for (std::size_t i = 0; i < kJointCount; ++i) {
     Vec3& drawn = memory.last.drawn.joints[i].position;

@@ -10,7 +10,7 @@ namespace nade {
 
 /// Takes the last frame's hands along with the surface under the drawn one, as a piece: with as
 /// much of its motion as was watched.
-void ride_along(const ScaledSurface& object, SettleMemory& memory) noexcept;
+void ride_along(const ScaledSurface& object, double seconds, SettleMemory& memory) noexcept;
 
 /// Whether an object that deformed has the last frame's drawn hand deep inside by that.
 [[nodiscard]] bool is_swallowed(const ScaledSurface& object, const SettleMemory& memory) noexcept;

@@ -110,6 +110,28 @@ TEST(SurfaceGroup, AHandSlidesFromOneObjectToTheNext) {
   }
 }
 
+/// While another moved, far off, it was taken for one that sank: the hand fell by 12 mm.
+TEST(SurfaceGroup, AHandDoesNotFallWithAMemberThatIsTakenAway) {
+  const auto base = table();
+  const SphereSurface ball(0.06);
+  const SphereSurface fan(0.05);
+  SurfaceGroup group({Object(*base, upright({0.0, -0.03, 0.0})),
+                      Object(ball, upright({0.0, -0.06, -0.02})),
+                      Object(fan, upright({1.5, 0.0, 0.0}))});
+  HandCorrector corrector(test::settling());
+  HandPose drawn;
+  for (int i = 0; i < 200; ++i) {
+    group.place(2, upright({1.5, 0.1 * std::sin(i * kFrame_s), 0.0}));
+    if (i == 150) group.place(1, upright({0.0, -5.0, 0.0}));
+    const HandPose tracked = test::on_the_way_down(i, 90, 0.03);
+    const HandPose now = corrector.update(tracked, Object(group), i * kFrame_ns).pose;
+    if (i > 140) {
+      EXPECT_LT(largest_motion(drawn, now), 0.003) << "frame " << i;
+    }
+    drawn = now;
+  }
+}
+
 TEST(SurfaceGroup, AHandAtRestRidesOnAMemberThatRisesAndSinks) {
   const auto top = table();
   const PlaneSurface floor;

@@ -2,12 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include <type_traits>
+
 #include "support/surface_battery.h"
 
 namespace nade {
 namespace {
 
 using test::Random;
+
+// It would keep the address of a surface that is gone.
+static_assert(!std::is_constructible_v<Object, SphereSurface>);
+static_assert(std::is_constructible_v<Object, const SphereSurface&>);
 
 TEST(Surface, PlaneBattery) {
   test::run_surface_battery(PlaneSurface{}, {Vec3(-1, -1, -1), Vec3(1, 1, 1), 1e-9, false});

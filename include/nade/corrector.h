@@ -31,6 +31,7 @@ enum class SkinSource : std::uint8_t {
 
 struct CorrectorOptions {
   Method method = Method::nade;
+  /// From here to `release_s`: method `paper` only.
   ContactOptions contact;
   FingerOptions fingers;
   SkinSource skin_source = SkinSource::radii;
@@ -43,7 +44,8 @@ struct CorrectorOptions {
   double release_s = 0.2;
   SettleOptions settle;
   /// Wrist to middle knuckle of the hand that is drawn, metres, where it is known, as from a
-  /// calibration; 0: what the tracker says on the average so far. A tracker may err by a tenth.
+  /// calibration, below 0.5; 0: what the tracker says on the average so far. A tracker may err by a
+  /// tenth.
   double hand_length_m = 0.0;
   /// Method `nade`: what can touch of each hand, by index_of(Handedness). Measure it on your own
   /// hand mesh if you draw another than the generic hand, which empty ones stand for.
@@ -65,12 +67,14 @@ struct CorrectedHand {
   std::array<double, kDigitCount> ray_turn_rad{};
 };
 
-/// Corrects one hand, frame by frame. Keep one for each hand; it is the only thing with memory.
+/// Corrects one hand, frame by frame. Keep one for each hand; it is the only thing with memory. One
+/// that was moved from can only be assigned to.
 class HandCorrector {
  public:
   explicit HandCorrector(const CorrectorOptions& options = {});
 
-  /// The hand to draw for a tracked hand at `time_ns` (any origin). Never allocates or throws;
+  /// The hand to draw for a tracked hand at `time_ns` (any origin), valid until the next call and
+  /// not to be given back as `tracked`. Never allocates or throws;
   /// the pose is finite if the tracked one is. A pose that cannot be used comes back as it is,
   /// status `untracked`. Frames in which the hand is missing are simply not passed: one that
   /// presses on when it is back, within a second, goes on from where it was drawn. Time that goes

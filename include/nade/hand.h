@@ -127,8 +127,9 @@ struct HandPose {
   [[nodiscard]] Vec3 back() const { return (*this)[Joint::palm].rotation * Vec3::UnitY(); }
 };
 
-/// Whether every number is finite, rotations are unit, the wrist is within 1000 km of the origin
-/// and no joint half a metre or more from it: what the frame path needs in order to work on a pose.
+/// Whether joints and radii are finite, rotations are unit, the wrist is within 1000 km of the
+/// origin and no joint half a metre or more from it: what the frame path needs in order to work on
+/// a pose.
 [[nodiscard]] bool is_usable(const HandPose& hand) noexcept;
 
 /// Wrist to middle-finger knuckle, metres: the measure of a hand's size.

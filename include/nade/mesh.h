@@ -64,7 +64,8 @@ class MeshSurface final : public Surface {
 
   /// Follows a deforming object: new positions for the vertices of the soup it was built from,
   /// same order and number, all finite (one that is not stays where it was). What is a crease,
-  /// a hole or a part is not decided anew. Does not allocate. Not while another thread queries.
+  /// a hole or a part, and which side is out, is not decided anew: a mirror image is inside out.
+  /// Does not allocate. Not while another thread queries.
   void refit(std::span<const Eigen::Vector3f> vertices) noexcept;
 
   /// Another after each refit, and for each mesh.

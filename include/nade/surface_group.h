@@ -12,7 +12,8 @@ namespace nade {
 /// Several objects as one: what a hand may touch at the same time, or slide over to, as a ball on a
 /// table. Where they stand is in the group's frame; most simply that is the world's.
 ///
-/// A query asks all of them, so give it what is near the hand. Solids that overlap are one: outside
+/// A query asks all of them, so give it what is near the hand: within 0.3 m of its palm, or fingers
+/// are in what is not there yet. Solids that overlap are one: outside
 /// of them all answers are exact; inside two of them the depth is that in the one that is entered
 /// deeper, and a ray from inside one ends at its surface, also within another.
 class SurfaceGroup final : public Surface {
