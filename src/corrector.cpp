@@ -28,6 +28,10 @@ constexpr double kShortestGap_s = 0.1;
 constexpr double kLateClock_s = 0.005;
 /// The mean hand length forgets frames older than about this many.
 constexpr std::int64_t kLengthFrames = 512;
+/// Where so many in a row are all longer, or shorter, by more than this share, it forgets those
+/// before them.
+constexpr std::int64_t kOtherLengthFrames = 30;
+constexpr double kOtherLength = 0.02;
 
 constexpr double kLargestHand_m = 0.5;
 
@@ -141,7 +145,7 @@ void HandCorrector::reset() noexcept {
   last_.reset();
   release_start_ns_.reset();
   hand_length_m_ = 0.0;
-  frames_ = 0;
+  frames_ = frames_longer_ = 0;
 }
 
 const CorrectedHand& HandCorrector::update(const HandPose& tracked, const Object& object,
@@ -205,8 +209,19 @@ void HandCorrector::start_frame(const HandPose& tracked, std::int64_t time_ns) n
     last_.reset();
     release_start_ns_.reset();
   }
+  follow_length(hand_length(tracked));
+}
+
+/// A tracker that has measured the hand anew says another length in every frame from then on.
+void HandCorrector::follow_length(double length_m) noexcept {
+  const double longer_m = length_m - hand_length_m_;
+  const bool same = std::abs(longer_m) < kOtherLength * hand_length_m_;
+  if (same || (longer_m > 0.0) != (frames_longer_ > 0)) frames_longer_ = 0;
+  if (!same) frames_longer_ += longer_m > 0.0 ? 1 : -1;
+  if (std::abs(frames_longer_) > kOtherLengthFrames)
+    frames_ = std::min(frames_, kOtherLengthFrames);
   frames_ = std::min(frames_ + 1, kLengthFrames);
-  hand_length_m_ += (hand_length(tracked) - hand_length_m_) / static_cast<double>(frames_);
+  hand_length_m_ += longer_m / static_cast<double>(frames_);
   if (options_.hand_length_m > 0.0) hand_length_m_ = options_.hand_length_m;
 }
 

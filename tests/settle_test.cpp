@@ -368,6 +368,24 @@ TEST(Settle, AHandIsLetGoWhereFrictionIsTakenAway) {
   EXPECT_LT(left_m, 0.003);
 }
 
+/// A tracker that has measured the hand anew: its size was the mean of the last 512 frames, and the
+/// skin was 2.3 mm inside a second later.
+TEST(Settle, AHandThatIsSuddenlyLargerIsSoonAsThick) {
+  HandCorrector corrector(settling());
+  const HandPose hand = pressed_hand(0.02);
+  HandPose larger = hand;
+  for (Pose& joint : larger.joints) {
+    joint.position =
+        hand[Joint::palm].position + 1.1 * (joint.position - hand[Joint::palm].position);
+  }
+  for (int i = 0; i < 600; ++i) {
+    const HandPose& tracked = i < 510 ? hand : larger;
+    const HandPose drawn = corrector.update(tracked, plane(), i * kFrame_ns).pose;
+    if (i < 599) continue;
+    EXPECT_GT(lowest_skin(drawn, plane()), -0.001);
+  }
+}
+
 TEST(Settle, AFrameAllocatesNothingAndRepeatsToTheBit) {
   HandCorrector first(settling());
   HandCorrector second(settling());

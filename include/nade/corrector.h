@@ -101,6 +101,7 @@ class HandCorrector {
   };
 
   void start_frame(const HandPose& tracked, std::int64_t time_ns) noexcept;
+  void follow_length(double length_m) noexcept;
   void correct_by_paper(const HandPose& tracked, const Object& object,
                         std::int64_t time_ns) noexcept;
   void settle(const HandPose& tracked, const Object& object, std::int64_t time_ns) noexcept;
@@ -115,9 +116,10 @@ class HandCorrector {
   std::array<SettleMemory, 2> settle_memory_;  ///< by index_of(Handedness)
   CorrectedHand result_;
   std::optional<Frame> last_;
-  double hand_length_m_ = 0.0;  ///< mean over the last few seconds: bones do not grow
-  std::int64_t frames_ = 0;
-  Correction residue_;  ///< what is being released
+  double hand_length_m_ = 0.0;      ///< mean over the last few seconds: bones do not grow
+  std::int64_t frames_ = 0;         ///< that it is of
+  std::int64_t frames_longer_ = 0;  ///< how many of the last were longer than it, all; < 0: shorter
+  Correction residue_;              ///< what is being released
   std::optional<std::int64_t> release_start_ns_;
 };
 
