@@ -243,6 +243,51 @@ TEST_F(MeshFiles, NodesMoveTurnAndMirror) {
   EXPECT_NEAR((file->places[0].pose.rotation * -Vec3::UnitZ() + Vec3::UnitX()).norm(), 0.0, 1e-6);
 }
 
+/// However it is written, no vertex is lost, and so none counted wrongly.
+TEST_F(MeshFiles, SpellingsOfObj) {
+  const std::string rest = "v 1 0 -1\nv 1 0 1\nv -1 0 1\nv 5 5 5\n";
+  const std::string face = "f 4 3 2 1\n";
+  const std::vector<std::string> spellings{
+      "\xEF\xBB\xBFv -1 0 -1\n" + rest + face,
+      face + "v -1 0 -1\n" + rest,
+      "  v -1. +.0 -.1e1 # a corner\n" + rest + "\t f 4 3 2 1\n",
+      "# a path\\\nv\t-1 0\\\r\n-1\r\n" + rest + "f 4 3 \\\n2 1\n",
+      "v -1 0 -1\rv 1 0 -1\rv 1 0 1\rv -1 0 1\rf 4 3 2 1\r",
+      "v -2 0 -2 2\nv 1 0 -1 1 1\nv 1 0 1 .5 .5 .5\nv -1 0 1 1 1 1 1\n" + face,
+      "v -1 0 -1\n" + rest + "vt .5 .5\nvn 0 1 0\nf -2/1/1 -3//1 -4/1 1/\n",
+      "v -1 0 -1\ncstype bezier\n" + rest + "end\nl 1 9\np 0\nV x\n" + face};
+  for (const std::string& spelling : spellings) {
+    const auto file = load_mesh(write("a.obj", spelling));
+    ASSERT_TRUE(file.ok()) << file.error().message;
+    const auto mesh = MeshSurface::build(file->soup, "a.obj");
+    ASSERT_TRUE(mesh.ok()) << spelling;
+    SurfaceHint hint;
+    for (const Vec3& corner : {Vec3(-1, 0, -1), Vec3(1, 0, -1), Vec3(1, 0, 1), Vec3(-1, 0, 1)}) {
+      EXPECT_NEAR((*mesh)->closest_point(corner, 1.0, hint)->signed_distance, 0.0, 1e-6);
+    }
+    EXPECT_EQ(file->soup.triangles.size(), 2U) << spelling;
+  }
+}
+
+TEST_F(MeshFiles, WrongLinesOfObjAreNamed) {
+  const std::string corners = "v -1 0 -1\nv 1 0 -1\nv 1 0 1\n\nv -1 0 1\n";
+  const std::vector<Sample> cases{
+      {"v -1 0", "line 6: v: expected 3 numbers, found 2"},
+      {"v -1 0 abc", "line 6: v: expected a number, found 'abc'"},
+      {"v -1,0 -1 1", "line 6: v: expected a number, found '-1,0'"},
+      {"v 1 1 1 0", "line 6: v: expected a weight other than 0, found 0"},
+      {"f 1 2 5", "line 6: expected vertices up to 4, found 5"},
+      {"f -1 -2 -9", "line 6: expected vertices up to 4, found -9"},
+      {"f 0 1 2", "line 6: f: expected the numbers of vertices, from 1 on, found '0'"},
+      {"f 1.5 2 3", "line 6: f: expected the numbers of vertices, from 1 on, found '1.5'"},
+      {"f 1/1/1/1 2 3", "line 6: f: expected the numbers of vertices, from 1 on, found '1/1/1/1'"},
+      {"f 1 2 99999999999999999999",
+       "line 6: f: expected the numbers of vertices, from 1 on, found '99999999999999999999'"}};
+  for (const auto& [line, sentence] : cases) {
+    EXPECT_EQ(message(write("a.obj", corners + line + "\n")), "a.obj: " + sentence);
+  }
+}
+
 TEST_F(MeshFiles, SaysWhatIsWrong) {
   EXPECT_EQ(message((folder_ / "missing.obj").string()), "missing.obj: no such file");
   fs::create_directories(folder_ / "folder.obj");

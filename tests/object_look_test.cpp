@@ -129,6 +129,13 @@ TEST_F(StageFiles, TextureOfAnObjFile) {
   expect_red_left_blue_right(board_picture("textured.obj"));
 }
 
+TEST_F(StageFiles, ObjFileBehindAByteOrderMark) {
+  write_obj("marked", "Kd 0 0 0\nmap_Kd board.png\n");
+  const std::string text = test::read_file(path("marked.obj"));
+  test::write_file(path("marked.obj"), "\xEF\xBB\xBF" + text);
+  expect_red_left_blue_right(board_picture("marked.obj"));
+}
+
 TEST_F(StageFiles, ColorOfAnObjFile) {
   write_obj("plain", "Kd 0.8 0.1 0.1\n");
   const Image image = board_picture("plain.obj");

@@ -10,6 +10,8 @@
 #include <filesystem>
 #include <map>
 
+#include "nade/io/mesh_file.h"
+#include "obj_text.h"
 #include "object_look.h"
 
 namespace nade::draw {
@@ -118,6 +120,10 @@ Result<DressedObject> load_plain_meshes(const std::string& path) {
   };
   try {
     Assimp::Importer importer;
+    if (ending_of(path) == ".obj") {
+      const Status status = io::read_as_plain_obj(importer, path);
+      if (!status) return status.error();
+    }
     const aiScene* const scene = importer.ReadFile(path, aiProcess_Triangulate);
     if (scene == nullptr || scene->mRootNode == nullptr) {
       return unreadable(importer.GetErrorString());

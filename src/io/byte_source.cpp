@@ -14,7 +14,6 @@ namespace nade::io {
 namespace {
 
 constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 gzFile as_gz(void* stream) { return static_cast<gzFile>(stream); }
 

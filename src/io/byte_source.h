@@ -14,6 +14,9 @@ namespace nade::io {
 /// The longest line of our format, and the longest element of an imported one.
 inline constexpr std::size_t kLongestLine = std::size_t{16} << 20;
 
+/// What some editors put before a text; it is no part of it.
+inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
 /// A line without its end.
 struct Line {
   std::string_view text;  ///< valid until the next read

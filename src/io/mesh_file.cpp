@@ -16,6 +16,7 @@
 #include <string_view>
 
 #include "mesh_formats.h"
+#include "obj_text.h"
 
 namespace nade {
 namespace {
@@ -103,6 +104,7 @@ TriangleSoup soup_of(const aiScene& scene) {
 
 Result<TriangleSoup> read_obj(const std::string& path) {
   Assimp::Importer importer;
+  if (const Status status = io::read_as_plain_obj(importer, path); !status) return status.error();
   const aiScene* scene = importer.ReadFile(path, 0);
   if (scene == nullptr || scene->mRootNode == nullptr) {
     return refuse(
