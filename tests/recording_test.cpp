@@ -194,6 +194,32 @@ TEST_F(Recording, DamagedGzipIsAnError) {
   EXPECT_TRUE(contains(whole.error, "bad.jsonl.gz: expected whole gzip data")) << whole.error;
 }
 
+TEST_F(Recording, GzipOfSeveralMembersIsWholeOrAnError) {
+  write_random("in.jsonl", 200);
+  write_random("in.jsonl.gz", 200);
+  const std::string text = test::read_file(path("in.jsonl"));
+  const std::string half = text.substr(0, text.find('\n', text.size() / 2) + 1);
+  ASSERT_TRUE(write_whole(path("1.gz"), half).ok());
+  ASSERT_TRUE(write_whole(path("2.gz"), text.substr(half.size())).ok());
+  const std::string first = test::read_file(path("1.gz"));
+  const std::string second = test::read_file(path("2.gz"));
+  const std::string padding(5, '\0');
+  for (const std::string& bytes : {first + second, first + second + padding}) {
+    const WholeRecording whole = read_whole(given("members.gz", bytes));
+    EXPECT_EQ(whole.error, "");
+    EXPECT_TRUE(whole.warnings.empty());
+    EXPECT_EQ(whole.frames.size(), 200u);
+  }
+  for (const std::string& between : {std::string("x"), padding, std::string("\x1F")}) {
+    const WholeRecording whole = read_whole(given("members.gz", first + between + second));
+    EXPECT_TRUE(contains(whole.error, "members.gz: expected whole gzip data")) << whole.error;
+  }
+  const WholeRecording cut =
+      read_whole(given("members.gz", first + second.substr(0, second.size() / 2)));
+  EXPECT_EQ(cut.error, "");
+  EXPECT_TRUE(contains(cut.warning(), "cut off")) << cut.warning();
+}
+
 TEST_F(Recording, WhatIsNoRecordingIsNamed) {
   const std::vector<std::pair<std::string, std::string>> cases{
       {"", "found nothing"},

@@ -7,6 +7,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 
@@ -14,8 +15,6 @@ namespace nade::io {
 namespace {
 
 constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
-
-gzFile as_gz(void* stream) { return static_cast<gzFile>(stream); }
 
 Error cannot_open(const std::string& path, int error_number) {
   if (error_number == ENOENT) {
@@ -28,10 +27,103 @@ Error cannot_open(const std::string& path, int error_number) {
 
 }  // namespace
 
-void ByteSource::Closer::operator()(void* stream) const { ::gzclose_r(as_gz(stream)); }
+/// Takes gzip off what a descriptor gives. zlib's own files end without a word where something else
+/// follows a member.
+class ByteSource::Unpacker {
+ public:
+  /// How a read ended.
+  enum class End { more, whole, cut_off, damaged, unreadable };
 
-ByteSource::ByteSource(std::string name, void* stream)
-    : name_(std::move(name)), stream_(stream), buffer_(kBufferBytes) {}
+  explicit Unpacker(int descriptor) : descriptor_(descriptor), input_(kBufferBytes / 2) {}
+  Unpacker(const Unpacker&) = delete;
+  Unpacker& operator=(const Unpacker&) = delete;
+  ~Unpacker() {
+    ::inflateEnd(&stream_);
+    ::close(descriptor_);
+  }
+
+  /// Moves up to `room` bytes to `to`, at least one where there are `more`; `count` is how many.
+  /// errno says why something is unreadable.
+  [[nodiscard]] End read(char* to, std::size_t room, std::size_t& count) {
+    count = 0;
+    if (form_ == Form::unknown && !tell_form()) return End::unreadable;
+    if (form_ == Form::plain) {
+      if (stream_.avail_in == 0 && !read_on()) return End::unreadable;
+      count = std::min(room, std::size_t{stream_.avail_in});
+      std::copy_n(stream_.next_in, count, to);
+      skip(count);
+      return count > 0 ? End::more : End::whole;
+    }
+    stream_.next_out = reinterpret_cast<Bytef*>(to);
+    stream_.avail_out = static_cast<uInt>(room);
+    while (true) {
+      if (stream_.avail_in == 0 && !read_on()) return End::unreadable;
+      if (stream_.avail_in == 0) return form_ == Form::member ? End::cut_off : End::whole;
+      if (form_ == Form::between && *stream_.next_in == 0) form_ = Form::padding;
+      if (form_ == Form::padding) {
+        if (*stream_.next_in != 0) return End::damaged;
+        skip(1);
+        continue;
+      }
+      if (form_ == Form::between) ::inflateReset(&stream_);
+      form_ = Form::member;
+      const int code = ::inflate(&stream_, Z_NO_FLUSH);
+      if (code == Z_STREAM_END) form_ = Form::between;
+      // What came out right before damage is likely damaged too.
+      if (code != Z_OK && code != Z_STREAM_END) return End::damaged;
+      count = room - stream_.avail_out;
+      if (count > 0) return End::more;
+    }
+  }
+
+ private:
+  enum class Form { unknown, plain, member, between, padding };
+
+  void skip(std::size_t count) {
+    stream_.next_in += count;
+    stream_.avail_in -= static_cast<uInt>(count);
+  }
+  /// Reads behind what there is already; no more bytes at the end.
+  [[nodiscard]] bool read_on() {
+    if (stream_.avail_in == 0) stream_.next_in = input_.data();
+    Bytef* const end = stream_.next_in + stream_.avail_in;
+    ssize_t count = -1;
+    do {
+      count =
+          ::read(descriptor_, end, static_cast<std::size_t>(input_.data() + input_.size() - end));
+    } while (count < 0 && errno == EINTR);
+    if (count > 0) stream_.avail_in += static_cast<uInt>(count);
+    return count >= 0;
+  }
+  [[nodiscard]] bool tell_form() {
+    uInt before = 0;
+    do {
+      before = stream_.avail_in;
+      if (!read_on()) return false;
+    } while (stream_.avail_in < kMagic.size() && stream_.avail_in > before);
+    const bool gzip = stream_.avail_in >= kMagic.size() &&
+                      std::equal(kMagic.begin(), kMagic.end(), stream_.next_in);
+    form_ = gzip ? Form::member : Form::plain;
+    if (!gzip || ::inflateInit2(&stream_, kGzipWindow) == Z_OK) return true;
+    errno = ENOMEM;
+    return false;
+  }
+
+  static constexpr std::array<Bytef, 2> kMagic{0x1F, 0x8B};
+  static constexpr int kGzipWindow = 15 + 16;  // zlib's: the largest window, with gzip around it
+  int descriptor_;
+  std::vector<Bytef> input_;
+  z_stream stream_{};
+  Form form_ = Form::unknown;
+};
+
+ByteSource::ByteSource(std::string name, int descriptor)
+    : name_(std::move(name)),
+      unpacker_(std::make_unique<Unpacker>(descriptor)),
+      buffer_(kBufferBytes) {}
+ByteSource::ByteSource(ByteSource&&) noexcept = default;
+ByteSource& ByteSource::operator=(ByteSource&&) noexcept = default;
+ByteSource::~ByteSource() = default;
 
 Result<ByteSource> ByteSource::open(const std::string& path) {
   const bool standard_input = path == "-";
@@ -44,13 +136,7 @@ Result<ByteSource> ByteSource::open(const std::string& path) {
     ::close(descriptor);
     return cannot_open(name, EISDIR);
   }
-  gzFile stream = ::gzdopen(descriptor, "rb");
-  if (stream == nullptr) {
-    ::close(descriptor);
-    return cannot_open(name, ENOMEM);
-  }
-  ::gzbuffer(stream, kBufferBytes / 2);
-  ByteSource source(std::move(name), stream);
+  ByteSource source(std::move(name), descriptor);
   if (source.peek(kByteOrderMark.size()) == kByteOrderMark) source.begin_ += kByteOrderMark.size();
   if (source.failure_) return *source.failure_;
   return source;
@@ -64,23 +150,23 @@ bool ByteSource::fill() {
     end_ -= begin_;
     begin_ = 0;
   }
-  errno = 0;
-  const int count = ::gzread(as_gz(stream_.get()), buffer_.data() + end_,
-                             static_cast<unsigned>(buffer_.size() - end_));
-  if (count > 0) {
-    end_ += static_cast<std::size_t>(count);
-    return true;
-  }
-  const int error_number = errno;
-  int code = Z_OK;
-  ::gzerror(as_gz(stream_.get()), &code);
-  if (code == Z_BUF_ERROR) {
-    cut_off_ = true;
-  } else if (code == Z_ERRNO) {
-    failure_ = cannot_open(name_, error_number);
-  } else if (code != Z_OK && code != Z_STREAM_END) {
-    failure_ = Error{ErrorCode::unreadable,
-                     fmt::format("{}: expected whole gzip data, found them damaged", name_)};
+  std::size_t count = 0;
+  switch (unpacker_->read(buffer_.data() + end_, buffer_.size() - end_, count)) {
+    case Unpacker::End::more:
+      end_ += count;
+      return true;
+    case Unpacker::End::whole:
+      return false;
+    case Unpacker::End::cut_off:
+      cut_off_ = true;
+      return false;
+    case Unpacker::End::damaged:
+      failure_ = Error{ErrorCode::unreadable,
+                       fmt::format("{}: expected whole gzip data, found them damaged", name_)};
+      return false;
+    case Unpacker::End::unreadable:
+      failure_ = cannot_open(name_, errno);
+      return false;
   }
   return false;
 }

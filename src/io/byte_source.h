@@ -24,10 +24,13 @@ struct Line {
 };
 
 /// The bytes of a file or of standard input, gzip taken off where its magic is found, a byte
-/// order mark skipped.
+/// order mark skipped. Of gzip there may be several members, and zeros after the last.
 class ByteSource {
  public:
   [[nodiscard]] static Result<ByteSource> open(const std::string& path);
+  ByteSource(ByteSource&&) noexcept;
+  ByteSource& operator=(ByteSource&&) noexcept;
+  ~ByteSource();
 
   /// What to call it in a message.
   [[nodiscard]] const std::string& name() const { return name_; }
@@ -47,15 +50,13 @@ class ByteSource {
   [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
 
  private:
-  struct Closer {
-    void operator()(void* stream) const;
-  };
+  class Unpacker;
 
-  ByteSource(std::string name, void* stream);
+  ByteSource(std::string name, int descriptor);
   bool fill();
 
   std::string name_;
-  std::unique_ptr<void, Closer> stream_;  // zlib's gzFile
+  std::unique_ptr<Unpacker> unpacker_;
   std::vector<char> buffer_;
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
