@@ -222,6 +222,23 @@ TEST_F(LeapImport, BadInputIsNamed) {
                "frames[0]: cut off"));
 }
 
+TEST_F(LeapImport, NothingMayFollowTheFrames) {
+  const std::string text = stored().dump();
+  const auto error = [&](const std::string& whole) {
+    return read_whole(given("in.json", whole)).error;
+  };
+  EXPECT_EQ(error(text + " \n"), "");
+  EXPECT_TRUE(contains(error(text + "\n" + text),
+                       "in.json: expected the file's end after the frames, found '{'"));
+  EXPECT_TRUE(contains(error(stored()["frames"].dump() + "xyz"), "file's end after the frames"));
+  EXPECT_TRUE(contains(error(R"({"frames":[{"timestamp":1}]xyz})"),
+                       "in.json: expected the object's end after the frames, found 'x'"));
+  EXPECT_TRUE(contains(error(R"({"frames":[{"timestamp":1}],"frames":[]})"),
+                       "in.json: expected one array \"frames\", found a second"));
+  const WholeRecording cut = read_whole(given("in.json", R"({"frames":[{"timestamp":1}],"a":)"));
+  EXPECT_TRUE(contains(cut.warning(), "in.json: cut off after the frames")) << cut.error;
+}
+
 TEST_F(LeapImport, CutOffFileIsReadToItsLastWholeFrame) {
   const std::string text = test::read_file(kStored);
   const WholeRecording whole = read_whole(given("cut.json", text.substr(0, text.size() - 900)));

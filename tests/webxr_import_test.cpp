@@ -161,6 +161,12 @@ TEST_F(WebxrImport, BadInputIsNamed) {
   EXPECT_TRUE(contains(error([](json& r) { r["schema"] = 5; }), "schema: expected an array"));
 }
 
+TEST_F(WebxrImport, NothingMayFollowTheFrames) {
+  const std::string text = test::read_file(kStored);
+  EXPECT_TRUE(contains(read_whole(given("in.json", text + "xyz")).error,
+                       "in.json: expected the file's end after the frames, found 'x'"));
+}
+
 TEST_F(WebxrImport, OddHandsAndTimesAreLeftOutAndCounted) {
   json recording = stored();
   recording["frames"][1][8][9][100] = nullptr;

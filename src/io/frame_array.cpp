@@ -56,7 +56,8 @@ Status FrameArray::read_members(const Member& member) {
 Result<std::optional<Json>> FrameArray::next(Warnings& warnings) {
   if (state_ == State::after_last) return std::optional<Json>();
   if (walker_.step(']')) {
-    finish(warnings);
+    const Status finished = finish(warnings);
+    if (!finished) return finished.error();
     return std::optional<Json>();
   }
   if (state_ == State::between && !walker_.step(',')) {
@@ -86,15 +87,31 @@ Result<std::optional<Json>> FrameArray::cut_off(Warnings& warnings) {
   return std::optional<Json>();
 }
 
-void FrameArray::finish(Warnings& warnings) {
+Status FrameArray::finish(Warnings& warnings) {
   state_ = State::after_last;
-  if (!in_object_) return;
-  while (walker_.step(',')) {
-    if (!walker_.skip_value() || !walker_.step(':') || !walker_.skip_value()) break;
+  bool whole = true;
+  if (in_object_) {
+    while (walker_.step(',')) {
+      const std::optional<std::string_view> key = walker_.value();
+      if (key == R"("frames")") {
+        return Error{ErrorCode::bad_format,
+                     fmt::format("{}: expected one array \"frames\", found a second", name())};
+      }
+      if (!key || !walker_.step(':') || !walker_.skip_value()) break;
+    }
+    whole = walker_.step('}');
   }
-  if (!walker_.step('}')) {
+  const std::optional<char> next = walker_.look();
+  if (source_->failure()) return *source_->failure();
+  if (next) {
+    return Error{ErrorCode::bad_format,
+                 fmt::format("{}: expected the {} end after the frames, found '{}'", name(),
+                             whole ? "file's" : "object's", *next)};
+  }
+  if (!whole) {
     warnings.add(Oddity::cut_off, fmt::format("{}: cut off after the frames", name()));
   }
+  return ok_status();
 }
 
 }  // namespace nade::io

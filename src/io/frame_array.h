@@ -36,7 +36,7 @@ class FrameArray {
   Status read_members(const Member& member);
   Error unfinished(const std::string& where) const;
   Result<std::optional<Json>> cut_off(Warnings& warnings);
-  void finish(Warnings& warnings);
+  Status finish(Warnings& warnings);
 
   std::unique_ptr<ByteSource> source_;  // the walker points to it
   JsonWalker walker_;
