@@ -114,6 +114,41 @@ TEST(GltfMesh, IsShownAsItStandsBeforeAnyAnimation) {
   expect_at(mesh.soup.vertices[2], {1, 1, -1});
 }
 
+/// tinygltf takes what is malformed for left out.
+TEST(GltfMesh, WhatIsMalformedIsNamed) {
+  struct Case {
+    std::string patch;  // RFC 7396
+    std::string sentence;
+  };
+  const std::vector<Case> cases{
+      {R"({"asset":{"version":"3.0"}})", R"(asset: version: expected "2.0", found "3.0")"},
+      {R"({"asset":null})", R"(asset: version: expected "2.0", found none)"},
+      {R"({"extensionsRequired":["FOO_bar"]})",
+       "requires the extension FOO_bar, which is not read"},
+      {R"({"nodes":[{"mesh":0,"translation":"x"}]})",
+       "node 0: translation: expected 3 numbers, found \"x\""},
+      {R"({"nodes":[{"mesh":0,"scale":[1,1]}]})", "node 0: scale: expected 3 numbers, found 2"},
+      {R"({"nodes":[{"mesh":0,"matrix":[1,1]}]})", "node 0: matrix: expected 16 numbers, found 2"},
+      {R"({"nodes":[{"mesh":0,"children":"x"}]})",
+       "node 0: children: expected the numbers of nodes, found \"x\""},
+      {R"({"nodes":[{"mesh":0.5}]})", "node 0: mesh: expected a whole number from 0 on, found 0.5"},
+      {R"({"bufferViews":[{"byteOffset":-48}]})",
+       "buffer view 0: byteOffset: expected a whole number from 0 on, found -48"},
+      {R"({"accessors":[{"sparse":{"values":{"byteOffset":"1"}}}]})",
+       "accessor 0: sparse: values: byteOffset: expected a whole number from 0 on, found \"1\""}};
+  for (const auto& [patch, sentence] : cases) {
+    GltfFile file("nade_malformed");
+    file.gltf.merge_patch(Json::parse(patch));
+    const std::string& path = file.write();
+    const auto mesh = load_mesh(path);
+    ASSERT_FALSE(mesh.ok()) << patch;
+    EXPECT_EQ(mesh.error().message, path + ": " + sentence);
+  }
+  GltfFile looks("nade_looks");
+  looks.gltf["extensionsRequired"] = {"KHR_mesh_quantization", "KHR_materials_unlit"};
+  EXPECT_TRUE(load_mesh(looks.write()).ok());
+}
+
 TEST(GltfMesh, CompressedFilesAreRefusedByName) {
   GltfFile file("nade_compressed");
   file.gltf["extensionsRequired"] = {"KHR_draco_mesh_compression"};

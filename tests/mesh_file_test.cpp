@@ -305,6 +305,34 @@ TEST_F(MeshFiles, SaysWhatIsWrong) {
             "short.off: line 8: expected a coordinate of vertex 4 of 8, found the end of the file");
   EXPECT_EQ(message(write("short.stl", stl_binary(box).substr(0, 300))),
             "short.stl: expected 684 bytes for 12 triangles, found 300");
+  EXPECT_EQ(message(write("words.glb", "{\n  \"asset\": oh")),
+            "words.glb: not a readable glTF file: line 2, column 12: expected valid JSON");
+  const std::string glb = glb_binary(box, plain_nodes());
+  EXPECT_EQ(message(write("version.glb", "glTF\x09" + glb.substr(5))),
+            "version.glb: expected version 2 of the .glb form, found 9");
+  EXPECT_EQ(message(write("short.glb", glb.substr(0, 300))),
+            "short.glb: expected " + std::to_string(glb.size()) + " bytes, found 300");
+}
+
+TEST_F(MeshFiles, NothingIsLeftOutBehindTheEnd) {
+  const TriangleSoup box = test::box_mesh({1, 1, 1});
+  EXPECT_EQ(message(write("more.off", off_text(box) + "3 0 1 2\n")),
+            "more.off: line 24: expected the end of the file, found '3'");
+  EXPECT_EQ(message(write("more.ply", ply_text(box) + "3 0 1 2\n")),
+            "more.ply: line 32: expected the end of the file, found '3'");
+  EXPECT_EQ(message(write("more.ply", ply_binary(box) + std::string(13, '\3'))),
+            "more.ply: expected the end of the file after its elements, found 13 bytes more");
+  EXPECT_EQ(message(write("space.ply", ply_binary(box) + "\r\n")), "");
+  EXPECT_EQ(message(write("more.stl", stl_binary(box) + std::string(100, '\0'))),
+            "more.stl: expected 12 triangles, as its header says, found 14");
+  EXPECT_EQ(message(write("note.stl", stl_binary(box) + "made by a test")), "");
+}
+
+TEST_F(MeshFiles, PlyWithoutACoordinate) {
+  std::string text = ply_text(test::box_mesh({1, 1, 1}));
+  text.replace(text.find("float z"), 7, "float w");
+  EXPECT_EQ(message(write("flat.ply", text)),
+            "flat.ply: expected the properties x, y and z of a vertex, found no z");
 }
 
 TEST_F(MeshFiles, NumbersThatCannotBe) {

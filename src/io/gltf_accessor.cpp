@@ -13,6 +13,8 @@
 #include <span>
 #include <string_view>
 
+#include "gltf_document.h"
+
 namespace nade::gltf {
 namespace {
 
@@ -253,6 +255,7 @@ Result<tinygltf::Model> read_model(const std::string& path, Pictures pictures) {
   if (bytes->size() > std::numeric_limits<unsigned int>::max()) {
     return Error{ErrorCode::bad_format, fmt::format("{}: too large for a hand", path)};
   }
+  if (const Status status = check_document(path, *bytes); !status) return status.error();
   const auto length = static_cast<unsigned int>(bytes->size());
   const std::string directory = std::filesystem::path(path).parent_path().string();
   tinygltf::TinyGLTF loader;
@@ -276,11 +279,6 @@ Result<tinygltf::Model> read_model(const std::string& path, Pictures pictures) {
   if (!read) {
     return Error{ErrorCode::bad_format,
                  fmt::format("{}: not a readable glTF file: {}", path, first_line(problem))};
-  }
-  for (const std::string& needed : model.extensionsRequired) {
-    if (!needed.ends_with("_compression")) continue;
-    return Error{ErrorCode::bad_format,
-                 fmt::format("{}: compressed by {}, which is not read", path, needed)};
   }
   return model;
 }

@@ -73,6 +73,9 @@ Result<TriangleSoup> read_off(const MeshText& file) {
     words.skip_line();  // colours
     add_polygon(soup, corners);
   }
+  if (const std::string_view word = words.word(); !word.empty()) {
+    return words.expected("the end of the file", word);
+  }
   return soup;
 }
 

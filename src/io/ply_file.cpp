@@ -66,6 +66,7 @@ class PlyReader {
         if (std::optional<Error> error = read_row(element, row)) return *error;
       }
     }
+    if (std::optional<Error> error = check_end()) return *error;
     return std::move(soup_);
   }
 
@@ -104,7 +105,38 @@ class PlyReader {
     }
     words_.skip_line();
     at_ = std::min(words_.offset() + 1, file_.content.size());
+    return check_coordinates();
+  }
+
+  [[nodiscard]] std::optional<Error> check_coordinates() const {
+    for (const Element& element : elements_) {
+      if (element.name != "vertex") continue;
+      for (const std::string_view axis : {"x", "y", "z"}) {
+        const bool given = std::any_of(
+            element.properties.begin(), element.properties.end(),
+            [&](const Property& known) { return known.name == axis && !known.count_type; });
+        if (given) continue;
+        return Error{ErrorCode::bad_format,
+                     fmt::format("{}: expected the properties x, y and z of a vertex, found no {}",
+                                 file_.path, axis)};
+      }
+    }
     return std::nullopt;
+  }
+
+  [[nodiscard]] std::optional<Error> check_end() {
+    if (encoding_ == Encoding::ascii) {
+      const std::string_view word = words_.word();
+      if (word.empty()) return std::nullopt;
+      return words_.expected("the end of the file", word);
+    }
+    const std::string_view rest = file_.content.substr(at_);
+    constexpr std::string_view kPadding("\0 \t\r\n", 5);
+    if (rest.find_first_not_of(kPadding) == std::string_view::npos) return std::nullopt;
+    return Error{ErrorCode::bad_format,
+                 fmt::format("{}: expected the end of the file after its elements, found {} bytes "
+                             "more",
+                             file_.path, rest.size())};
   }
 
   std::optional<Error> read_property() {

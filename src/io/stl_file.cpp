@@ -81,8 +81,14 @@ Result<TriangleSoup> read_stl(const MeshText& file) {
   if (content.starts_with("solid") && content.find("facet") != std::string_view::npos) {
     return read_ascii(file);
   }
-  // Some programs write more behind the triangles.
-  if (content.size() > whole && count > 0) return read_binary(content, count);
+  // Some programs write more behind the triangles, but that is no triangles.
+  if (content.size() > whole && count > 0) {
+    const std::size_t more = content.size() - whole;
+    if (more % kTriangleBytes != 0) return read_binary(content, count);
+    return Error{ErrorCode::bad_format,
+                 fmt::format("{}: expected {} triangles, as its header says, found {}", file.path,
+                             count, count + more / kTriangleBytes)};
+  }
   if (content.starts_with("solid") && content.find("endsolid") != std::string_view::npos) {
     return TriangleSoup{};
   }
