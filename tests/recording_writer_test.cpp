@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include <cmath>
+#include <functional>
 #include <random>
 #include <thread>
 
@@ -110,6 +111,20 @@ TEST_F(WrittenRecording, WriterRefusesWhatItsReaderWould) {
   const Status status = writer->write(frame);
   ASSERT_FALSE(status.ok());
   EXPECT_TRUE(contains(status.error().message, "right: expected finite numbers"));
+  const auto refusal = [&](const std::function<void(HandPose&)>& spoil) {
+    frame.hands[1] = random_hand(Handedness::right, random);
+    spoil(frame.hands[1]->pose);
+    const Status refused = writer->write(frame);
+    return refused.ok() ? "" : refused.error().message;
+  };
+  EXPECT_EQ(refusal([](HandPose& hand) { hand.joints[2].position.x() = -1e7; }),
+            path("out.jsonl") +
+                ": frame at 20 ns: right: expected numbers up to 1000000 to write, "
+                "found 10000000");
+  EXPECT_TRUE(contains(refusal([](HandPose& hand) { hand.radius[3] = -0.5; }),
+                       "expected a radius of 0 or more to write, found -0.5"));
+  EXPECT_TRUE(contains(refusal([](HandPose& hand) { hand.confidence = 1.5; }),
+                       "expected a confidence from 0 to 1 to write, found 1.5"));
   frame.hands[1] = random_hand(Handedness::right, random);
   EXPECT_TRUE(writer->write(frame).ok());
   ASSERT_TRUE(writer->finish().ok());

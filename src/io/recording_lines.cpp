@@ -10,7 +10,6 @@ namespace nade::io {
 namespace {
 
 constexpr std::size_t kJointNumbers = 8;
-constexpr double kFarthest_m = 1e6;
 constexpr double kUnitTolerance = 1e-3;  // of the squared norm, as is_usable has it
 constexpr double kShortestRotation = 0.5;
 constexpr double kLongestRotation = 2.0;

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "recording_lines.h"
@@ -134,18 +135,34 @@ bool is_finite(const Pose& pose) {
   return pose.position.allFinite() && pose.rotation.coeffs().allFinite();
 }
 
-bool is_finite(const RecordedHand& hand) {
+bool is_finite(const RecordedContact& contact) {
+  return contact.point.allFinite() && contact.normal.allFinite() && std::isfinite(contact.depth_m);
+}
+
+/// Refuses what a reader of the hand would.
+Status check_hand(const RecordedHand& hand) {
+  const auto wrong = [](std::string_view expected) {
+    return Error{ErrorCode::bad_value, fmt::format("expected {}", expected)};
+  };
+  constexpr std::string_view kFinite = "finite numbers to write";
   for (const auto& contact : hand.contact) {
-    if (!contact) continue;
-    if (!contact->point.allFinite() || !contact->normal.allFinite() ||
-        !std::isfinite(contact->depth_m)) {
-      return false;
-    }
+    if (contact && !is_finite(*contact)) return wrong(kFinite);
   }
   for (std::size_t i = 0; i < kJointCount; ++i) {
-    if (!is_finite(hand.pose.joints[i]) || !std::isfinite(hand.pose.radius[i])) return false;
+    const Pose& joint = hand.pose.joints[i];
+    const double radius = hand.pose.radius[i];
+    if (!is_finite(joint) || !std::isfinite(radius)) return wrong(kFinite);
+    const double farthest = std::max({joint.position.cwiseAbs().maxCoeff(),
+                                      joint.rotation.coeffs().cwiseAbs().maxCoeff(), radius});
+    if (farthest > kFarthest_m) {
+      return wrong(fmt::format("numbers up to {} to write, found {}", kFarthest_m, farthest));
+    }
+    if (radius < 0.0) return wrong(fmt::format("a radius of 0 or more to write, found {}", radius));
   }
-  return std::isfinite(hand.pose.confidence);
+  const double confidence = hand.pose.confidence;
+  if (!std::isfinite(confidence)) return wrong(kFinite);
+  if (confidence >= 0.0 && confidence <= 1.0) return ok_status();
+  return wrong(fmt::format("a confidence from 0 to 1 to write, found {}", confidence));
 }
 
 }  // namespace
@@ -167,10 +184,9 @@ Status append_frame(const RecordedFrame& frame, Buffer& out) {
   for (const Handedness side : {Handedness::left, Handedness::right}) {
     const std::optional<RecordedHand>& hand = frame.hands[index_of(side)];
     if (!hand) continue;
-    if (!is_finite(*hand)) {
-      return Error{ErrorCode::bad_value,
-                   fmt::format("frame at {} ns: {}: expected finite numbers to write",
-                               frame.time_ns, name_of(side))};
+    if (const Status status = check_hand(*hand); !status) {
+      return Error{status.error().code, fmt::format("frame at {} ns: {}: {}", frame.time_ns,
+                                                    name_of(side), status.error().message)};
     }
     fmt::format_to(fmt::appender(out), ",\"{}\":", name_of(side));
     append_hand(out, *hand);
