@@ -45,6 +45,42 @@ TEST_F(WrittenRecording, PermissionsFollowTheMask) {
   EXPECT_EQ(info.st_mode & 0777U, 0640U);
 }
 
+TEST_F(WrittenRecording, PermissionsOfWhatIsReplacedStay) {
+  for (const mode_t mode : {0600U, 0664U}) {
+    static_cast<void>(given("out.jsonl", "old"));
+    ASSERT_EQ(::chmod(path("out.jsonl").c_str(), mode), 0);
+    write_random("out.jsonl", 1);
+    struct stat info {};
+    ASSERT_EQ(::stat(path("out.jsonl").c_str(), &info), 0);
+    EXPECT_EQ(info.st_mode & 0777U, mode);
+  }
+}
+
+TEST_F(WrittenRecording, NameAsLongAsCanBe) {
+  const std::string name = std::string(249, 'n') + ".jsonl";
+  write_random(name, 2);
+  EXPECT_EQ(files(), std::vector<std::string>{name});
+}
+
+TEST_F(WrittenRecording, EndingInCapitalsIsGzipToo) {
+  write_random("out.jsonl.GZ", 2);
+  EXPECT_TRUE(test::read_file(path("out.jsonl.GZ")).starts_with("\x1F\x8B"));
+}
+
+TEST_F(WrittenRecording, LinkToNothingIsWrittenThrough) {
+  std::filesystem::create_symlink("next.jsonl", path("link.jsonl"));
+  std::filesystem::create_symlink("target.jsonl", path("next.jsonl"));
+  write_random("link.jsonl", 3);
+  EXPECT_TRUE(std::filesystem::is_symlink(path("link.jsonl")));
+  EXPECT_TRUE(std::filesystem::is_symlink(path("next.jsonl")));
+  EXPECT_EQ(read_whole(path("target.jsonl")).frames.size(), 3u);
+
+  std::filesystem::create_symlink("loop.jsonl", path("loop.jsonl"));
+  const Result<RecordingWriter> writer = RecordingWriter::create(path("loop.jsonl"), {});
+  ASSERT_FALSE(writer.ok());
+  EXPECT_TRUE(contains(writer.error().message, "symbolic links")) << writer.error().message;
+}
+
 TEST_F(WrittenRecording, LinkIsWrittenThrough) {
   static_cast<void>(given("target.jsonl", "old"));
   std::filesystem::create_symlink("target.jsonl", path("link.jsonl"));

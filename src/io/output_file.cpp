@@ -12,14 +12,19 @@
 #include <cstring>
 #include <filesystem>
 #include <optional>
+#include <system_error>
 #include <utility>
+
+#include "nade/io/mesh_file.h"
 
 namespace nade {
 namespace {
 
 constexpr unsigned kBufferBytes = 1U << 17;
 constexpr int kNameTries = 100;
+constexpr int kLinkTries = 40;
 constexpr mode_t kNewFileMode = 0666;  // less what the umask takes away
+constexpr mode_t kPermissions = 0777;
 
 std::string shown(const std::string& path) { return path == "-" ? "standard output" : path; }
 
@@ -28,13 +33,21 @@ Error unwritable(const std::string& path, int error_number) {
                                              shown(path), std::strerror(error_number))};
 }
 
-/// Where the file really lies, so that a link is written through and not replaced.
+/// Where the file really lies, or will, so that a link is written through and not replaced.
 std::string resolved(const std::string& path) {
-  char* real = ::realpath(path.c_str(), nullptr);
-  if (real == nullptr) return path;
-  std::string result = real;
-  std::free(real);
-  return result;
+  if (char* real = ::realpath(path.c_str(), nullptr); real != nullptr) {
+    std::string result = real;
+    std::free(real);
+    return result;
+  }
+  std::filesystem::path target = path;
+  std::error_code none;
+  for (int i = 0; i < kLinkTries && !std::filesystem::exists(target, none); ++i) {
+    const std::filesystem::path next = std::filesystem::read_symlink(target, none);
+    if (next.empty()) break;
+    target = target.parent_path() / next;
+  }
+  return target.string();
 }
 
 /// An open file to write to, and where it is to be renamed from.
@@ -45,12 +58,18 @@ struct OpenedFile {
   int nameless = -1;        ///< a second descriptor, by which a file without a name gets one
 };
 
+std::filesystem::path folder_of(const std::string& target) {
+  const std::filesystem::path folder = std::filesystem::path(target).parent_path();
+  return folder.empty() ? "." : folder;
+}
+
 /// Calls `make` with names beside `target` until it has made something under one of them; that
-/// name, or empty with errno set.
+/// name, or empty with errno set. They do not hold the target's own, which may be as long as a
+/// name can be.
 template <class Make>
 std::string make_beside(const std::string& target, Make&& make) {
   for (int attempt = 0; attempt < kNameTries; ++attempt) {
-    std::string name = fmt::format("{}.{}-{}.part", target, ::getpid(), attempt);
+    std::string name = folder_of(target) / fmt::format("nade-{}-{}.part", ::getpid(), attempt);
     if (make(name.c_str())) return name;
     if (errno != EEXIST) break;
   }
@@ -61,11 +80,10 @@ std::string by_descriptor(int descriptor) { return fmt::format("/proc/self/fd/{}
 
 /// A file without a name, which goes with the program however that ends; no value where the
 /// system has no such thing.
-std::optional<OpenedFile> open_nameless([[maybe_unused]] const std::string& target) {
+std::optional<OpenedFile> open_nameless([[maybe_unused]] const std::string& target,
+                                        [[maybe_unused]] mode_t mode) {
 #if defined(O_TMPFILE)
-  const std::string folder = std::filesystem::path(target).parent_path().string();
-  const int descriptor =
-      ::open(folder.empty() ? "." : folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, kNewFileMode);
+  const int descriptor = ::open(folder_of(target).c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, mode);
   if (descriptor < 0) return std::nullopt;
   const int second = ::fcntl(descriptor, F_DUPFD_CLOEXEC, 0);
   if (second >= 0 && ::access(by_descriptor(second).c_str(), F_OK) == 0) {
@@ -77,11 +95,11 @@ std::optional<OpenedFile> open_nameless([[maybe_unused]] const std::string& targ
   return std::nullopt;
 }
 
-Result<OpenedFile> open_beside(const std::string& path, const std::string& target) {
-  if (auto nameless = open_nameless(target)) return *std::move(nameless);
+Result<OpenedFile> open_beside(const std::string& path, const std::string& target, mode_t mode) {
+  if (auto nameless = open_nameless(target, mode)) return *std::move(nameless);
   int descriptor = -1;
   std::string temporary = make_beside(target, [&](const char* name) {
-    descriptor = ::open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kNewFileMode);
+    descriptor = ::open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
     return descriptor >= 0;
   });
   if (descriptor < 0) return unwritable(path, errno);
@@ -103,17 +121,23 @@ Result<OpenedFile> open_for_writing(const std::string& path) {
   }
   struct stat info {};
   const std::string target = resolved(path);
-  if (::stat(target.c_str(), &info) == 0) {
-    if (S_ISDIR(info.st_mode)) return unwritable(path, EISDIR);
-    if (!S_ISREG(info.st_mode)) {
-      const int descriptor = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
-      if (descriptor < 0) return unwritable(path, errno);
-      return OpenedFile{descriptor, target};
-    }
-    // A rename would replace a file that its owner made read-only.
-    if (::access(target.c_str(), W_OK) != 0) return unwritable(path, errno);
+  if (::stat(target.c_str(), &info) != 0) {
+    if (errno != ENOENT) return unwritable(path, errno);
+    return open_beside(path, target, kNewFileMode);
   }
-  return open_beside(path, target);
+  if (S_ISDIR(info.st_mode)) return unwritable(path, EISDIR);
+  if (!S_ISREG(info.st_mode)) {
+    const int descriptor = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor < 0) return unwritable(path, errno);
+    return OpenedFile{descriptor, target};
+  }
+  // A rename would replace a file that its owner made read-only.
+  if (::access(target.c_str(), W_OK) != 0) return unwritable(path, errno);
+  // Nobody may read it who may not read what it replaces.
+  const mode_t mode = info.st_mode & kPermissions;
+  Result<OpenedFile> file = open_beside(path, target, mode);
+  if (file) static_cast<void>(::fchmod(file->descriptor, mode));  // what the umask took away
+  return file;
 }
 
 }  // namespace
@@ -153,7 +177,7 @@ struct OutputFile::Impl {
 };
 
 OutputFile::Encoding OutputFile::encoding_of(const std::string& path) {
-  return path.ends_with(".gz") ? Encoding::gzip : Encoding::plain;
+  return ending_of(path) == ".gz" ? Encoding::gzip : Encoding::plain;
 }
 
 Result<OutputFile> OutputFile::create(const std::string& path, Encoding encoding, Appears appears) {

@@ -19,7 +19,7 @@ class OutputFile {
   /// flushed. What stood there before is an error then.
   enum class Appears { whole, at_once };
 
-  /// gzip where the name ends in ".gz", else plain.
+  /// gzip where the name ends in ".gz", in small letters or capitals, else plain.
   [[nodiscard]] static Encoding encoding_of(const std::string& path);
 
   /// The error names the file and why it cannot be written.
