@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <random>
 
@@ -254,6 +255,9 @@ TEST_F(Recording, WrongLinesAreErrorsThatNameThem) {
   EXPECT_EQ(error_of(frame), "t: expected a time in whole nanoseconds, found \"now\"");
   frame["t"] = 1.5;
   EXPECT_EQ(error_of(frame), "t: expected a time in whole nanoseconds, found 1.5");
+  frame["t"] = std::numeric_limits<std::int64_t>::max();
+  EXPECT_EQ(error_of(frame),
+            "t: expected a time up to 4000000000000000000 ns from 0, found 9223372036854775807");
   EXPECT_EQ(error_of({{"right", 1}}), "t: expected a time in whole nanoseconds, found none");
   frame = frame_json(5);
   frame["right"] = 7;

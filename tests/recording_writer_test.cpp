@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <random>
 #include <thread>
 
@@ -153,6 +154,9 @@ TEST_F(WrittenRecording, WriterRefusesWhatItsReaderWould) {
     const Status refused = writer->write(frame);
     return refused.ok() ? "" : refused.error().message;
   };
+  frame.time_ns = std::numeric_limits<std::int64_t>::max();
+  EXPECT_TRUE(contains(refusal([](HandPose&) {}), "expected a time up to 4000000000000000000 ns"));
+  frame.time_ns = 20;
   EXPECT_EQ(refusal([](HandPose& hand) { hand.joints[2].position.x() = -1e7; }),
             path("out.jsonl") +
                 ": frame at 20 ns: right: expected numbers up to 1000000 to write, "

@@ -4,12 +4,13 @@
 
 #include <cmath>
 
+#include "recording_limits.h"
+
 namespace nade::io {
 namespace {
 
 constexpr double kMetresPerMillimetre = 1e-3;
 constexpr double kNanosecondsPerMicrosecond = 1e3;
-constexpr double kLatest_us = 9e15;  // a double still tells microseconds apart
 
 std::optional<double> finite_number(const Json& object, const char* key) {
   const auto found = object.find(key);
@@ -113,7 +114,8 @@ Result<std::optional<RecordedFrame>> LeapImport::next() {
 Result<RecordedFrame> LeapImport::read_frame(const Json& frame) {
   RecordedFrame result;
   const std::optional<double> time_us = finite_number(frame, "timestamp");
-  if (!time_us || !(std::abs(*time_us) < kLatest_us)) {
+  if (!time_us ||
+      !(std::abs(*time_us) * kNanosecondsPerMicrosecond < static_cast<double>(kLatest_ns))) {
     return Error{ErrorCode::bad_value,
                  fmt::format("{}: timestamp: expected a time in microseconds, found {}", place(),
                              frame.contains("timestamp") ? frame["timestamp"].dump() : "none")};

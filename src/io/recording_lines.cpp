@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "recording_limits.h"
 #include "recording_names.h"
 
 namespace nade::io {
@@ -244,6 +245,10 @@ Result<RecordedFrame> RecordingLines::read_frame(Json object) {
   if (!time_ns) {
     return bad_value(fmt::format("t: expected a time in whole nanoseconds, found {}",
                                  time ? time->dump() : "none"));
+  }
+  if (*time_ns < -kLatest_ns || *time_ns > kLatest_ns) {
+    return bad_value(
+        fmt::format("t: expected a time up to {} ns from 0, found {}", kLatest_ns, *time_ns));
   }
   if (last_time_ns_ && *time_ns <= *last_time_ns_) {
     return bad_value(

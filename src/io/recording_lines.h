@@ -12,9 +12,6 @@
 
 namespace nade::io {
 
-/// What no number of a hand may be beyond, read or written: metres, so far that something is wrong.
-inline constexpr double kFarthest_m = 1e6;
-
 /// Reads our own format.
 class RecordingLines {
  public:

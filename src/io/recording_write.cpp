@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "recording_limits.h"
 #include "recording_lines.h"
 #include "recording_names.h"
 
@@ -180,6 +181,11 @@ void append_header(const RecordingHeader& header, Buffer& out) {
 }
 
 Status append_frame(const RecordedFrame& frame, Buffer& out) {
+  if (frame.time_ns < -kLatest_ns || frame.time_ns > kLatest_ns) {
+    return Error{ErrorCode::bad_value, fmt::format("frame at {} ns: expected a time up to {} ns "
+                                                   "from 0 to write",
+                                                   frame.time_ns, kLatest_ns)};
+  }
   fmt::format_to(fmt::appender(out), "{{\"t\":{}", frame.time_ns);
   for (const Handedness side : {Handedness::left, Handedness::right}) {
     const std::optional<RecordedHand>& hand = frame.hands[index_of(side)];

@@ -7,11 +7,12 @@
 
 #include <cmath>
 
+#include "recording_limits.h"
+
 namespace nade::io {
 namespace {
 
 constexpr double kNanosecondsPerMillisecond = 1e6;
-constexpr double kLatest_ms = 9e12;
 constexpr std::size_t kPoseNumbers = 7;
 constexpr std::size_t kJointNumbers = 8;
 constexpr std::size_t kFrameInputs = 1 + kPoseNumbers;  // after the time and the viewer's pose
@@ -164,7 +165,8 @@ Result<RecordedFrame> WebxrImport::read_frame(const Json& frame) {
                              "sources",
                              place())};
   }
-  if (!frame[0].is_number() || !(std::abs(frame[0].get<double>()) < kLatest_ms)) {
+  if (!frame[0].is_number() || !(std::abs(frame[0].get<double>()) * kNanosecondsPerMillisecond <
+                                 static_cast<double>(kLatest_ns))) {
     return Error{ErrorCode::bad_value, fmt::format("{}: expected a time in milliseconds, found {}",
                                                    place(), frame[0].dump())};
   }
