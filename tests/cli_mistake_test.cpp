@@ -47,6 +47,28 @@ TEST_F(CliMistake, MisuseIsTwo) {
   EXPECT_EQ(files(), std::vector<std::string>{"in.jsonl"});
 }
 
+TEST_F(CliMistake, NumbersThatCannotBeAreNamed) {
+  make_stroke("in.jsonl");
+  const std::string correct = "correct in.jsonl -o out.jsonl --object plane ";
+  for (const char* option : {"--softness", "--friction", "--press", "--release",
+                             "--full-turn-depth", "--max-ray-turn", "--scale"}) {
+    expect_misuse(nade(correct + option + " nan"), option + std::string(": expected "));
+  }
+  expect_misuse(nade(correct + "--softness 21"),
+                "--softness: expected a number from 0 to 20, found '21'");
+  for (const char* option :
+       {"--speed", "--depth", "--tilt", "--duration", "--rate", "--hand-scale"}) {
+    expect_misuse(nade(std::string("synth -o out.jsonl --object plane ") + option + " nan"),
+                  option);
+  }
+  for (const std::string seed : {"-1", "1.5", "99999999999999999999", "0x10"}) {
+    expect_misuse(nade("synth -o out.jsonl --object plane --seed " + seed),
+                  "--seed: expected a whole number, found '" + seed + "'");
+  }
+  expect_misuse(nade("bench --jobs 0"), "--jobs: expected a whole number from 1 to 256");
+  EXPECT_EQ(files(), std::vector<std::string>{"in.jsonl"});
+}
+
 TEST_F(CliMistake, MissingInputIsNamed) {
   make_stroke("in.jsonl");
   expect_failure(nade("correct nowhere.jsonl -o out.jsonl --object plane"), "nowhere.jsonl");

@@ -162,7 +162,13 @@ TEST_F(RenderCommand, RefusesWithTwo) {
                                 "in.jsonl -o out.png --show all",
                                 "in.jsonl -o out.png --follow me",
                                 "in.jsonl -o film.mp4 --size 161x120",
-                                "in.jsonl -o film.mp4 --fps 0"}) {
+                                "in.jsonl -o film.mp4 --fps 0",
+                                "in.jsonl -o film.mp4 --fps nan",
+                                "in.jsonl -o film.mp4 --slow nan",
+                                "in.jsonl -o film.mp4 --from nan",
+                                "in.jsonl -o out.png --time nan",
+                                "in.jsonl -o out.png --fov nan",
+                                "in.jsonl -o out.png --frame -1"}) {
     const Ran ran = render(arguments);
     EXPECT_EQ(ran.status, 2) << arguments << "\n" << ran.err;
     EXPECT_NE(ran.err, "") << arguments;
@@ -201,6 +207,8 @@ TEST_F(RenderCommand, FigureOfOnesOwnRecording) {
   EXPECT_EQ(nade("figure -o no.png --frame 3").status, 2);
   EXPECT_EQ(nade("figure in.jsonl -o no.png --frame 9999").status, 2);
   EXPECT_EQ(nade("figure in.jsonl -o no.png --time 99").status, 2);
+  expect_misuse(nade("figure in.jsonl -o no.png --frame -1"),
+                "--frame: expected a whole number, found '-1'");
   expect_failure(nade("figure nowhere.jsonl -o no.png"), "nowhere.jsonl");
   EXPECT_EQ(files(), (std::vector<std::string>{"in.jsonl", "sheet.png"}));
 }

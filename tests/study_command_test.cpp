@@ -68,6 +68,10 @@ TEST_F(StudyCommand, MisuseIsNamed) {
   EXPECT_NE(effect.err.find("found 'Q7=1'"), std::string::npos) << effect.err;
   expect_failure(nade("study simulate plan.json -d data"), "expected an empty folder");
   expect_failure(nade("study simulate nothing.json -d other"), "nothing.json: expected a study's");
+  expect_misuse(nade("study plan -o other.json --seed -1"), "--seed: expected a whole number");
+  expect_misuse(nade("study run plan.json --participant P9 --headless --speed nan"),
+                "--speed: expected a number from 0.1 to 100, found 'nan'");
+  expect_misuse(nade("study simulate plan.json -d other --motion nan"), "--motion: expected");
   EXPECT_EQ(nade("study").status, 2);
   EXPECT_EQ(nade("study run plan.json").status, 2);
   ASSERT_EQ(shell("sed -i 's/\"trial_s\": 30.0/\"trial_s\": -1/' plan.json").status, 0);

@@ -16,6 +16,7 @@
 #include "console.h"
 #include "nade/io/output_file.h"
 #ifdef NADE_CLI_PHYSICS
+#include "number_options.h"
 #include "physics_hand.h"
 #endif
 
@@ -180,7 +181,7 @@ void add_bench(CLI::App& app, Action& action) {
       ->type_name("DIR");
   command->add_option("--jobs", arguments->jobs, "cases worked on at a time (default all cores)")
       ->type_name("N")
-      ->check(CLI::Range(1, 256));
+      ->transform(whole_number_in(1, 256));
   command->add_option("--json", arguments->json, "writes all figures as JSON; - is stdout")
       ->type_name("FILE");
   command->add_option("--csv", arguments->csv, "writes a line a case and method; - is stdout")

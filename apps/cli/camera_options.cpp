@@ -8,6 +8,7 @@
 #include <string>
 
 #include "number_list.h"
+#include "number_options.h"
 
 namespace nade::cli {
 namespace {
@@ -98,7 +99,7 @@ void add_camera_options(CLI::App& command, CameraOptions& options) {
   add_point(command, "--target", options.target, "what it looks at, metres (default the hands)");
   command.add_option("--fov", options.fov_deg, "angle from the picture's bottom to its top")
       ->type_name("DEG")
-      ->check(CLI::Range(1.0, 150.0));
+      ->check(number_in(1.0, 150.0));
   command
       .add_option_function<std::string>(
           "--follow",

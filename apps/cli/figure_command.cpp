@@ -15,6 +15,7 @@
 #include "figure_sheet.h"
 #include "nade/draw/image.h"
 #include "nade/eval/synth.h"
+#include "number_options.h"
 #include "spooled_input.h"
 
 namespace nade::cli {
@@ -251,10 +252,11 @@ void add_figure(CLI::App& app, Action& action) {
       ->delimiter(',')
       ->capture_default_str();
   command->add_option("--frame", arguments->frame, "of this frame, from 0 (default the deepest)")
-      ->type_name("N");
+      ->type_name("N")
+      ->transform(whole_number());
   command->add_option("--time", arguments->time_s, "so long after the first frame")
       ->type_name("S")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(number_in(0.0, 1e6));
   add_show_options(*command, arguments->show);
   command->callback(
       [&action, arguments] { action = [arguments] { return run_figure(*arguments); }; });

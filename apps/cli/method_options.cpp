@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "nade/io/hand_file.h"
+#include "number_options.h"
 
 namespace nade::cli {
 namespace {
@@ -86,7 +87,7 @@ void add_open_points(CLI::App& command, CorrectorOptions& options) {
       .add_option("--full-turn-depth", contact.full_turn_depth_m,
                   "depth at which the palm lies along the surface")
       ->type_name("M")
-      ->check(CLI::Range(0.0, 0.2))
+      ->check(number_in(0.0, 0.2))
       ->capture_default_str()
       ->group(kGroup);
   command
@@ -97,13 +98,13 @@ void add_open_points(CLI::App& command, CorrectorOptions& options) {
           },
           "farthest turn of a fingertip's ray toward extension (default 80)")
       ->type_name("DEG")
-      ->check(CLI::Range(0.0, 90.0))
+      ->check(number_in(0.0, 90.0))
       ->group(kGroup);
   command
       .add_option("--release", options.release_s,
                   "time over which what is left of a correction fades")
       ->type_name("S")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(number_in(0.0, 1.0))
       ->capture_default_str()
       ->group(kGroup);
 }
@@ -119,13 +120,13 @@ void add_method_options(CLI::App& command, MethodOptions& options) {
           [&options](const double& mm) { options.corrector.settle.softness_m = 0.001 * mm; },
           "of the object: the skin sinks in by up to so much (method nade; default 0)")
       ->type_name("MM")
-      ->check(CLI::Range(0.0, 20.0));
+      ->check(number_in(0.0, 20.0));
   command
       .add_option("--friction", options.corrector.settle.friction.coefficient,
                   "to be seen: the hand lags along the surface by up to so many times the pressing "
                   "depth, then slips (method nade; default 0)")
       ->type_name("MU")
-      ->check(CLI::Range(0.0, 2.0));
+      ->check(number_in(0.0, 2.0));
   CLI::Option* const literal = command.add_flag("--paper-literal", options.literal,
                                                 "every open point as the paper's text has it");
   literal->group(kGroup);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "nade/io/recording.h"
+#include "number_options.h"
 
 namespace nade::cli {
 namespace {
@@ -26,7 +27,7 @@ CLI::Option* add_press_option(CLI::App& command, std::optional<double>& press_m)
       .add_option("--press", press_m,
                   "moves the object so that the palms' skin lies so deep at the median")
       ->type_name("M")
-      ->check(CLI::Range(0.0, 0.2));
+      ->check(number_in(0.0, 0.2));
 }
 
 Status press_onto(const PalmTrack& palms, const std::string& path, double press_m,

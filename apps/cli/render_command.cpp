@@ -10,6 +10,7 @@
 #include "commands.h"
 #include "console.h"
 #include "nade/draw/film.h"
+#include "number_options.h"
 #include "show.h"
 #include "spooled_input.h"
 
@@ -282,22 +283,23 @@ Status run_render(RenderArguments arguments) {
 void add_time_options(CLI::App& command, RenderArguments& arguments) {
   const auto add_seconds = [&command](const char* name, std::optional<double>& value,
                                       const char* help) {
-    command.add_option(name, value, help)->type_name("S")->check(CLI::Range(0.0, 1e6));
+    command.add_option(name, value, help)->type_name("S")->check(number_in(0.0, 1e6));
   };
   command
       .add_option("--frame", arguments.frame,
                   "one picture: of this frame, from 0 (default the deepest press)")
-      ->type_name("N");
+      ->type_name("N")
+      ->transform(whole_number());
   add_seconds("--time", arguments.time_s, "one picture: so long after the first frame");
   add_seconds("--from", arguments.from_s, "film or numbered pictures: from here");
   add_seconds("--to", arguments.to_s, "film or numbered pictures: up to here");
   command.add_option("--fps", arguments.fps, "pictures a second")
       ->type_name("N")
-      ->check(CLI::Range(1.0, 240.0))
+      ->check(number_in(1.0, 240.0))
       ->capture_default_str();
   command.add_option("--slow", arguments.slow, "how many times slower than it was")
       ->type_name("X")
-      ->check(CLI::Range(0.01, 1000.0))
+      ->check(number_in(0.01, 1000.0))
       ->capture_default_str();
 }
 

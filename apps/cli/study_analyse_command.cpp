@@ -14,6 +14,7 @@
 #include "nade/study/figure.h"
 #include "nade/study/report.h"
 #include "nade/study/study_data.h"
+#include "number_options.h"
 
 namespace nade::cli {
 namespace {
@@ -118,6 +119,7 @@ void add_study_analyse(CLI::App& study, Action& action) {
       ->capture_default_str();
   command->add_option("--seed", arguments->options.bootstrap.seed, "of the bootstrap")
       ->type_name("N")
+      ->transform(whole_number())
       ->capture_default_str();
   command->footer(
       "OUT gets report.md, comparisons.csv, fig3 and fig3_by_object (.svg .pdf .png, and the .gp\n"

@@ -15,6 +15,7 @@
 #include "nade/study/export.h"
 #include "nade/study/plan.h"
 #include "nade/study/simulate.h"
+#include "number_options.h"
 #include "study_run.h"
 
 namespace nade::cli {
@@ -60,7 +61,8 @@ void add_plan(CLI::App& study, Action& action) {
       ->check(CLI::IsMember({"random", "latin"}))
       ->capture_default_str();
   command->add_option("--seed", arguments->seed, "what orders are drawn from (default 2023)")
-      ->type_name("N");
+      ->type_name("N")
+      ->transform(whole_number());
   command->callback(
       [&action, arguments] { action = [arguments] { return run_plan(*arguments); }; });
 }
@@ -155,7 +157,7 @@ void add_simulate(CLI::App& study, Action& action) {
       ->required();
   command->add_option("--participants", options.participants, "how many")
       ->type_name("N")
-      ->check(CLI::Range(std::size_t{1}, std::size_t{999}))
+      ->transform(whole_number_in(1, 999))
       ->capture_default_str();
   command
       ->add_option("--effect", arguments->effect,
@@ -165,10 +167,11 @@ void add_simulate(CLI::App& study, Action& action) {
       ->capture_default_str();
   command->add_option("--seed", options.seed, "what people are invented from")
       ->type_name("N")
+      ->transform(whole_number())
       ->capture_default_str();
   command->add_option("--motion", options.motion_s, "seconds of motion to invent for each trial")
       ->type_name("S")
-      ->check(CLI::Range(0.0, 3600.0))
+      ->check(number_in(0.0, 3600.0))
       ->capture_default_str();
   command->callback(
       [&action, arguments] { action = [arguments] { return run_simulate(*arguments); }; });

@@ -9,6 +9,7 @@
 #ifdef NADE_CLI_VIEWER
 #include "method_options.h"
 #include "nade/eval/synth.h"
+#include "number_options.h"
 #include "picture_options.h"
 #include "window_options.h"
 #endif
@@ -162,7 +163,7 @@ void add_study_run(CLI::App& study, Action& action) {
       ->add_option("--speed", arguments->study.speed,
                    "so many times faster, to try a plan out; the data say so")
       ->type_name("X")
-      ->check(CLI::Range(0.1, 100.0));
+      ->check(number_in(0.1, 100.0));
   add_desktop_options(*command, arguments->desktop);
   command->callback(
       [&action, arguments] { action = [arguments] { return run_study(*arguments); }; });

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -13,6 +12,7 @@
 #include "nade/correction.h"
 #include "nade/eval/synth.h"
 #include "nade/io/recording.h"
+#include "number_options.h"
 #include "object_options.h"
 
 namespace nade::cli {
@@ -30,14 +30,6 @@ std::optional<Handedness> hand_from_name(std::string_view name) {
     if (name == name_of(side)) return side;
   }
   return std::nullopt;
-}
-
-std::optional<std::uint64_t> seed_from(std::string_view text) {
-  std::uint64_t seed = 0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, code] = std::from_chars(text.data(), end, seed);
-  if (code != std::errc{} || stop != end) return std::nullopt;
-  return seed;
 }
 
 /// An option whose text `parse` turns into a value, or into none where it is not `expected`.
@@ -150,8 +142,10 @@ void add_synth(CLI::App& app, Action& action) {
       ->capture_default_str();
   add_parsed(*command, "--noise", synth.noise, noise_from_name, "none|leap|quest",
              "whose tracking errors the hand bears (default none)");
-  add_parsed(*command, "--seed", synth.seed, seed_from, "a whole number",
-             "of the tracking errors (default 1)");
+  command->add_option("--seed", synth.seed, "of the tracking errors")
+      ->type_name("N")
+      ->transform(whole_number())
+      ->capture_default_str();
   command->add_option("--hand-scale", synth.hand_scale, "how many times larger the hand is")
       ->type_name("S")
       ->capture_default_str();

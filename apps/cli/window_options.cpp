@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "number_options.h"
+
 namespace nade::cli {
 
 void add_window_options(CLI::App& command, WindowOptions& options, std::size_t frames_max,
@@ -17,7 +19,7 @@ void add_window_options(CLI::App& command, WindowOptions& options, std::size_t f
       .add_option("--frames", options.frames,
                   fmt::format("ends after so many frames (headless: {})", without_display))
       ->type_name("N")
-      ->check(CLI::Range(std::size_t{1}, frames_max));
+      ->transform(whole_number_in(1, frames_max));
   command.add_option("--screenshot", options.screenshot, "writes the last frame as a PNG file")
       ->type_name("FILE");
   command

@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "headset_run.h"
 #include "method_options.h"
+#include "number_options.h"
 #include "object_options.h"
 #include "picture_options.h"
 
@@ -73,7 +74,7 @@ void add_xr(CLI::App& app, Action& action) {
       ->type_name("FILE");
   command->add_option("--frames", arguments->run.frames, "leaves after so many frames")
       ->type_name("N")
-      ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}));
+      ->transform(whole_number_in(1, 100'000'000));
   command
       ->add_option("--screenshot", arguments->run.screenshot,
                    "writes what both eyes saw last, as FILE-left.png and FILE-right.png")

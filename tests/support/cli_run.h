@@ -54,6 +54,13 @@ class CliTest : public FolderTest {
     EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
     EXPECT_NE(ran.err.find(part), std::string::npos) << ran.err << "lacks: " << part;
   }
+
+  /// Status 2 and `part` on stderr, nothing on stdout.
+  static void expect_misuse(const Ran& ran, const std::string& part) {
+    EXPECT_EQ(ran.status, 2) << ran.err;
+    EXPECT_EQ(ran.out, "");
+    EXPECT_NE(ran.err.find(part), std::string::npos) << ran.err << "lacks: " << part;
+  }
 };
 
 }  // namespace nade::test
