@@ -69,6 +69,21 @@ TEST_F(CliMistake, NumbersThatCannotBeAreNamed) {
   EXPECT_EQ(files(), std::vector<std::string>{"in.jsonl"});
 }
 
+TEST_F(CliMistake, AnEmptyWordIsNoValue) {
+  make_stroke("in.jsonl");
+  for (const std::string& arguments : std::vector<std::string>{
+           "correct '' -o out.jsonl --object plane", "correct in.jsonl -o '' --object plane",
+           "correct in.jsonl -o out.jsonl --object ''", "measure in.jsonl in.jsonl --json ''",
+           "correct in.jsonl -o out.jsonl --object plane --press ''",
+           "synth -o out.jsonl --object plane --depth ''",
+           "synth -o out.jsonl --object plane --place ''",
+           "synth -o out.jsonl --object plane --seed ''"}) {
+    SCOPED_TRACE(arguments);
+    expect_misuse(nade(arguments), "expected a");
+    EXPECT_EQ(files(), std::vector<std::string>{"in.jsonl"});
+  }
+}
+
 TEST_F(CliMistake, MissingInputIsNamed) {
   make_stroke("in.jsonl");
   expect_failure(nade("correct nowhere.jsonl -o out.jsonl --object plane"), "nowhere.jsonl");

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -14,6 +16,21 @@ int parse_error(const CLI::App& app, const CLI::ParseError& error) {
   const bool asked_for_help = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
   app.exit(error);
   return asked_for_help ? kDone : kMisuse;
+}
+
+/// An empty word is what a script's unset variable leaves. CLI11 takes it for 0.
+nade::Status check_words(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& word : option->results()) {
+      if (!word.empty()) continue;
+      return nade::cli::misuse(
+          fmt::format("{}: expected a value, found an empty one", option->get_name()));
+    }
+  }
+  for (const CLI::App* command : app.get_subcommands()) {
+    if (const nade::Status words = check_words(*command); !words) return words;
+  }
+  return nade::ok_status();
 }
 
 int run(int argc, char** argv) {
@@ -45,7 +62,8 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return parse_error(app, error);
   }
-  const nade::Status status = action();
+  const nade::Status words = check_words(app);
+  const nade::Status status = words ? action() : words;
   if (status.ok()) return kDone;
   std::fprintf(stderr, "nade: %s\n", status.error().message.c_str());
   return status.error().code == nade::ErrorCode::out_of_range ? kMisuse : kCouldNot;
