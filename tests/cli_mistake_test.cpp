@@ -47,6 +47,14 @@ TEST_F(CliMistake, MisuseIsTwo) {
   EXPECT_EQ(files(), std::vector<std::string>{"in.jsonl"});
 }
 
+TEST_F(CliMistake, WhatIsNotExpectedIsNamed) {
+  expect_misuse(nade(""), "nade: expected a command (correct, measure, synth, ");
+  expect_misuse(nade("bogus --depth 1"), "), found 'bogus' (nade --help tells the rest)");
+  expect_misuse(nade("inspect in.jsonl one --two three"), "found 'one --two three'");
+  expect_misuse(nade("correct in.jsonl --ouput out.jsonl --object plane"), "--ouput");
+  expect_misuse(nade("convert in.jsonl"), "--output is required (nade convert --help ");
+}
+
 TEST_F(CliMistake, NumbersThatCannotBeAreNamed) {
   make_stroke("in.jsonl");
   const std::string correct = "correct in.jsonl -o out.jsonl --object plane ";

@@ -38,6 +38,23 @@ TEST_F(Cli, HelpOfEveryCommand) {
   }
 }
 
+/// Of every command that was built, whichever they are.
+TEST_F(Cli, HelpIsTextInEveryLetter) {
+  const std::string all = nade("--help").out;
+  for (const std::string command : {"correct", "render", "study run", "view", "xr"}) {
+    if (all.find("\n  " + command.substr(0, command.find(' ')) + ' ') == std::string::npos)
+      continue;
+    const Ran ran = nade(command + " --help");
+    EXPECT_EQ(ran.status, 0) << command;
+    EXPECT_TRUE(std::all_of(ran.out.begin(), ran.out.end(), [](char letter) {
+      return letter == '\n' || static_cast<unsigned char>(letter) >= ' ';
+    })) << ran.out;
+    if (command == "xr") {
+      expect_misuse(nade("xr --graphics foo"), "--graphics: expected egl|xlib, found 'foo'");
+    }
+  }
+}
+
 TEST_F(Cli, VersionNamesTheProgram) {
   const Ran ran = nade("--version");
   EXPECT_EQ(ran.status, 0);

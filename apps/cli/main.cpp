@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <vector>
 
 #include "commands.h"
 
@@ -12,10 +13,40 @@ constexpr int kDone = 0;
 constexpr int kCouldNot = 1;
 constexpr int kMisuse = 2;
 
+std::string names_of_commands(const CLI::App& app) {
+  std::string names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  }
+  return names;
+}
+
+/// What is wrong with the words of a command. Of those that are left over CLI11 says nothing where
+/// no command is among them, and else says them backwards.
+std::string sentence_of(const CLI::App& command, const CLI::ParseError& error) {
+  const std::vector<std::string> left = command.remaining();
+  if (command.get_require_subcommand_min() > 0 && command.get_subcommands().empty()) {
+    return fmt::format("expected a command ({}), found {}", names_of_commands(command),
+                       left.empty() ? "none" : fmt::format("'{}'", left.front()));
+  }
+  if (left.empty()) return error.what();
+  return fmt::format("expected nothing more, found '{}'", fmt::join(left, " "));
+}
+
 int parse_error(const CLI::App& app, const CLI::ParseError& error) {
-  const bool asked_for_help = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
-  app.exit(error);
-  return asked_for_help ? kDone : kMisuse;
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
+    app.exit(error);  // help or version
+    return kDone;
+  }
+  const CLI::App* command = &app;
+  std::string name = app.get_name();
+  while (command->remaining().empty() && !command->get_subcommands().empty()) {
+    command = command->get_subcommands().front();
+    name += " " + command->get_name();
+  }
+  std::fprintf(stderr, "nade: %s (%s --help tells the rest)\n",
+               sentence_of(*command, error).c_str(), name.c_str());
+  return kMisuse;
 }
 
 /// An empty word is what a script's unset variable leaves. CLI11 takes it for 0.

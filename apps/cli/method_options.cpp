@@ -1,9 +1,8 @@
 #include "method_options.h"
 
-#include <fmt/format.h>
-
 #include <vector>
 
+#include "choice_option.h"
 #include "nade/io/hand_file.h"
 #include "number_options.h"
 
@@ -12,47 +11,10 @@ namespace {
 
 constexpr const char* kGroup = "Open points of --method paper (docs/method.md)";
 
-template <class T>
-struct Choice {
-  const char* name;
-  T value;
-};
-
 const std::vector<Choice<Method>>& methods() {
   static const std::vector<Choice<Method>> kMethods{
       {"nade", Method::nade}, {"paper", Method::paper}, {"none", Method::none}};
   return kMethods;
-}
-
-/// The names of some choices, parted by |.
-template <class T>
-std::string names_of(const std::vector<Choice<T>>& choices) {
-  std::string names;
-  for (const Choice<T>& choice : choices) {
-    names += fmt::format("{}{}", names.empty() ? "" : "|", choice.name);
-  }
-  return names;
-}
-
-/// An option that takes one of a few names.
-template <class T>
-CLI::Option* add_choice(CLI::App& command, const std::string& name, T& value,
-                        const std::vector<Choice<T>>& choices, const std::string& help) {
-  const std::string names = names_of(choices);
-  return command
-      .add_option_function<std::string>(
-          name,
-          [=, &value](const std::string& text) {
-            for (const Choice<T>& choice : choices) {
-              if (text == choice.name) {
-                value = choice.value;
-                return;
-              }
-            }
-            throw CLI::ValidationError(name, fmt::format("expected {}, found '{}'", names, text));
-          },
-          help)
-      ->type_name(names);
 }
 
 void add_open_points(CLI::App& command, CorrectorOptions& options) {

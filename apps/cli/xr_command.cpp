@@ -1,10 +1,10 @@
 #include <algorithm>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "choice_option.h"
 #include "chooser.h"
 #include "commands.h"
 #include "headset_run.h"
@@ -87,13 +87,9 @@ void add_xr(CLI::App& app, Action& action) {
       ->type_name("FILE");
   command->add_flag("--mirror", arguments->run.mirror,
                     "a window for the operator: what is seen, and figures");
-  const std::map<std::string, xr::GraphicsWay> ways{{"egl", xr::GraphicsWay::egl},
-                                                    {"xlib", xr::GraphicsWay::xlib}};
-  command
-      ->add_option("--graphics", arguments->run.graphics,
-                   "how pictures reach the runtime, if not in the way it offers")
-      ->type_name("egl|xlib")
-      ->transform(CLI::CheckedTransformer(ways));
+  add_choice<xr::GraphicsWay>(*command, "--graphics", arguments->run.graphics,
+                              {{"egl", xr::GraphicsWay::egl}, {"xlib", xr::GraphicsWay::xlib}},
+                              "how pictures reach the runtime, if not in the way it offers");
   command->callback([&action, arguments] { action = [arguments] { return run_xr(*arguments); }; });
 }
 

@@ -48,17 +48,16 @@ class CliTest : public FolderTest {
   }
 
   /// Status 1 and a single line on stderr that has `part` in it, nothing on stdout.
-  static void expect_failure(const Ran& ran, const std::string& part) {
-    EXPECT_EQ(ran.status, 1) << ran.err;
+  static void expect_failure(const Ran& ran, const std::string& part) { expect(ran, 1, part); }
+
+  /// The same for status 2.
+  static void expect_misuse(const Ran& ran, const std::string& part) { expect(ran, 2, part); }
+
+ private:
+  static void expect(const Ran& ran, int status, const std::string& part) {
+    EXPECT_EQ(ran.status, status) << ran.err;
     EXPECT_EQ(ran.out, "");
     EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
-    EXPECT_NE(ran.err.find(part), std::string::npos) << ran.err << "lacks: " << part;
-  }
-
-  /// Status 2 and `part` on stderr, nothing on stdout.
-  static void expect_misuse(const Ran& ran, const std::string& part) {
-    EXPECT_EQ(ran.status, 2) << ran.err;
-    EXPECT_EQ(ran.out, "");
     EXPECT_NE(ran.err.find(part), std::string::npos) << ran.err << "lacks: " << part;
   }
 };
