@@ -92,6 +92,36 @@ TEST_F(CliMistake, AnEmptyWordIsNoValue) {
   }
 }
 
+TEST_F(CliMistake, NoOutputIsWrittenOverWhatIsNeeded) {
+  make_stroke("in.jsonl");
+  ASSERT_EQ(nade("correct in.jsonl -o out.jsonl --object plane").status, 0);
+  write_file(path("tri.obj"), "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 3 2\n");
+  ASSERT_EQ(shell("ln -s in.jsonl link && mkdir sub").status, 0);
+  const std::vector<std::string> before = files();
+  const std::string tracked = read_file(path("in.jsonl"));
+  const std::string corrected = read_file(path("out.jsonl"));
+  for (const std::string& arguments : std::vector<std::string>{
+           "correct in.jsonl -o in.jsonl --object plane",
+           "correct in.jsonl -o ./link --object plane",
+           "correct in.jsonl -o new.jsonl --json sub/../new.jsonl --object plane",
+           "correct in.jsonl -o out.jsonl --json in.jsonl --object plane",
+           "correct in.jsonl -o tri.obj --object tri.obj", "synth -o tri.obj --object tri.obj",
+           "measure in.jsonl out.jsonl --json in.jsonl",
+           "measure in.jsonl out.jsonl --csv out.jsonl",
+           "measure in.jsonl out.jsonl --json m.json --csv m.json",
+           "bench --quick --csv b.txt --markdown b.txt",
+           "bench --quick --mesh tri.obj --json tri.obj"}) {
+    SCOPED_TRACE(arguments);
+    expect_misuse(nade(arguments), ": expected another file than that of ");
+  }
+  expect_misuse(nade("bench --json - --csv -"), "--json and --csv cannot both be standard output");
+  EXPECT_EQ(files(), before);
+  EXPECT_EQ(read_file(path("in.jsonl")), tracked);
+  EXPECT_EQ(read_file(path("out.jsonl")), corrected);
+  EXPECT_EQ(nade("measure in.jsonl out.jsonl --json /dev/null --csv /dev/null").status, 0);
+  EXPECT_EQ(nade("convert in.jsonl -o in.jsonl").status, 0);
+}
+
 TEST_F(CliMistake, MissingInputIsNamed) {
   make_stroke("in.jsonl");
   expect_failure(nade("correct nowhere.jsonl -o out.jsonl --object plane"), "nowhere.jsonl");

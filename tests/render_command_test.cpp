@@ -176,6 +176,14 @@ TEST_F(RenderCommand, RefusesWithTwo) {
   EXPECT_EQ(files(), std::vector<std::string>{"in.jsonl"});
 }
 
+TEST_F(RenderCommand, DrawsOverNothingThatIsShown) {
+  make_stroke("in.png");
+  const std::string before = read_file(path("in.png"));
+  expect_misuse(render("in.png -o in.png"), "--output: expected another file than that of IN");
+  expect_misuse(nade("figure in.png -o in.png"), "--output: expected another file");
+  EXPECT_EQ(read_file(path("in.png")), before);
+}
+
 TEST_F(RenderCommand, NamesWhatCannotBeUsed) {
   make_stroke("in.jsonl");
   expect_failure(render("nowhere.jsonl -o out.png"), "nowhere.jsonl");

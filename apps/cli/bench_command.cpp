@@ -12,6 +12,7 @@
 
 #include "bench_report.h"
 #include "bench_run.h"
+#include "command_files.h"
 #include "commands.h"
 #include "console.h"
 #include "nade/io/output_file.h"
@@ -36,8 +37,6 @@ struct BenchArguments {
   std::optional<std::string> markdown;
   std::string dump;
 };
-
-constexpr const char* kStandardStream = "-";
 
 /// All that this program was built with, in the order in which they are reported.
 std::vector<ComparedMethod> all_methods() {
@@ -109,6 +108,13 @@ Result<BenchPlan> plan_of(const BenchArguments& arguments) {
     if (!clips) return clips.error();
     options.clips = std::move(clips).value();
   }
+  std::vector<NamedFile> inputs;
+  for (const std::string& mesh : options.mesh_files) inputs.push_back({"--mesh", mesh});
+  for (const std::string& clip : options.clips) inputs.push_back({"--clips", clip});
+  const Status apart = check_apart(
+      {{"--json", arguments.json}, {"--csv", arguments.csv}, {"--markdown", arguments.markdown}},
+      inputs);
+  if (!apart) return apart.error();
   BenchPlan plan{suite_cases(options), std::move(methods).value(), arguments.jobs};
   std::erase_if(plan.cases, [&](const SuiteCase& suite_case) {
     return suite_case.name().find(arguments.filter) == std::string::npos;
@@ -135,12 +141,6 @@ Status write_reports(const BenchArguments& arguments, const BenchReport& report)
 }
 
 Status run_command(const BenchArguments& arguments) {
-  const auto to_stdout = [](const std::optional<std::string>& path) {
-    return path == kStandardStream ? 1 : 0;
-  };
-  if (to_stdout(arguments.json) + to_stdout(arguments.csv) + to_stdout(arguments.markdown) > 1) {
-    return misuse("only one of --json, --csv and --markdown can be standard output");
-  }
   const Result<BenchPlan> plan = plan_of(arguments);
   if (!plan) return plan.error();
   const Result<DrawnHands> hands = load_drawn_hands();

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "command_files.h"
 #include "commands.h"
 #include "console.h"
 #include "method_options.h"
@@ -151,9 +152,9 @@ Status run_correct(const CorrectArguments& arguments) {
   if (!arguments.object.object) {
     return misuse("--object is needed: plane, sphere, dog or a mesh file");
   }
-  if (arguments.output == "-" && arguments.json == "-") {
-    return misuse("--output and --json cannot both be standard output");
-  }
+  const Status apart = check_apart({{"--output", arguments.output}, {"--json", arguments.json}},
+                                   {{"IN", arguments.input}, object_file(arguments.object)});
+  if (!apart) return apart;
   if (arguments.input != "-" || !arguments.press_m) return run_on(arguments, arguments.input);
   const Result<SpooledInput> spooled = SpooledInput::read();
   if (!spooled) return spooled.error();

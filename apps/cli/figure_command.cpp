@@ -222,6 +222,8 @@ Status run_figure(FigureArguments arguments) {
         "--object, --at, --turn, --scale, --press, --frame or --time");
   }
   if (arguments.frame && arguments.time_s) return misuse("--frame and --time exclude each other");
+  const Status apart = check_apart(arguments.output, arguments.show);
+  if (!apart) return apart;
   arguments.name = arguments.show.recording;
   if (arguments.show.recording != "-") return run_on(arguments);
   arguments.name = "standard input";

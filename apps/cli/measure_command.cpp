@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "command_files.h"
 #include "commands.h"
 #include "console.h"
 #include "measure_report.h"
@@ -24,8 +25,6 @@ struct MeasureArguments {
   std::optional<std::string> json;
   std::optional<std::string> csv;
 };
-
-constexpr const char* kStandardStream = "-";
 
 Result<MeasureReport> measure(const MeasureArguments& arguments, const std::string& tracked_path) {
   Result<RecordingPair> pair =
@@ -62,9 +61,11 @@ Result<MeasureReport> measure(const MeasureArguments& arguments, const std::stri
 }
 
 Status run_measure(const MeasureArguments& arguments) {
-  if (arguments.json == kStandardStream && arguments.csv == kStandardStream) {
-    return misuse("--json and --csv cannot both be standard output");
-  }
+  const Status apart = check_apart({{"--json", arguments.json}, {"--csv", arguments.csv}},
+                                   {{"TRACKED", arguments.tracked},
+                                    {"CORRECTED", arguments.corrected},
+                                    object_file(arguments.object)});
+  if (!apart) return apart;
   std::optional<SpooledInput> spooled;
   if (arguments.tracked == kStandardStream) {
     if (arguments.corrected == kStandardStream) {

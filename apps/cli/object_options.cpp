@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 
 #include "commands.h"
 #include "console.h"
+#include "nade/io/mesh_file.h"
 #include "number_list.h"
 
 namespace nade::cli {
@@ -71,6 +73,13 @@ void add_object_options(CLI::App& command, ObjectOptions& options) {
           },
           "how many times larger the object is")
       ->type_name("S");
+}
+
+NamedFile object_file(const ObjectOptions& options) {
+  NamedFile file{"--object", options.object};
+  if (file.path) file.path->erase(std::min(file.path->find(":alive"), file.path->size()));
+  if (file.path && !has_mesh_ending(*file.path)) file.path.reset();
+  return file;
 }
 
 Result<PlacedObject> load_placed(const ObjectOptions& options,

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "command_files.h"
 #include "nade/io/object_file.h"
 #include "nade/status.h"
 
@@ -20,6 +21,9 @@ struct ObjectOptions {
 
 /// Adds the options to a command. What cannot be read is refused while parsing.
 void add_object_options(CLI::App& command, ObjectOptions& options);
+
+/// The file that the object is read from, where it is one.
+[[nodiscard]] NamedFile object_file(const ObjectOptions& options);
 
 /// An object, loaded, and where it stands.
 struct PlacedObject {

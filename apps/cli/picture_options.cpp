@@ -37,17 +37,24 @@ std::string overlay_names() {
   return names;
 }
 
+std::string option_of(Handedness side) { return fmt::format("--hand-{}", name_of(side)); }
+
 }  // namespace
 
 void add_hand_options(CLI::App& command, HandFiles& options) {
   for (const Handedness side : {Handedness::left, Handedness::right}) {
     command
-        .add_option(fmt::format("--hand-{}", name_of(side)), options.file[index_of(side)],
+        .add_option(option_of(side), options.file[index_of(side)],
                     fmt::format("a skinned {} hand of your own (.glb, .gltf), with the joints of "
                                 "WebXR by name",
                                 name_of(side)))
         ->type_name("FILE");
   }
+}
+
+std::vector<NamedFile> hand_files(const HandFiles& files) {
+  return {{option_of(Handedness::left), files.file[index_of(Handedness::left)]},
+          {option_of(Handedness::right), files.file[index_of(Handedness::right)]}};
 }
 
 Result<draw::HandMeshes> load_hands(const HandFiles& files) {

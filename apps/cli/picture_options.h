@@ -3,7 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "command_files.h"
 #include "nade/draw/stage.h"
 #include "nade/status.h"
 
@@ -14,6 +16,9 @@ struct HandFiles {
   std::array<std::optional<std::string>, 2> file{};  ///< by index_of(Handedness)
 };
 void add_hand_options(CLI::App& command, HandFiles& options);
+
+/// The files, as the command line calls them.
+[[nodiscard]] std::vector<NamedFile> hand_files(const HandFiles& files);
 
 /// The hands to draw: the files that were given, or the hand that comes with nade.
 [[nodiscard]] Result<draw::HandMeshes> load_hands(const HandFiles& files);

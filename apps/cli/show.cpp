@@ -73,6 +73,14 @@ void add_show_options(CLI::App& command, ShowArguments& arguments) {
   add_hand_options(command, arguments.hands);
 }
 
+Status check_apart(const std::string& output, const ShowArguments& arguments) {
+  std::vector<NamedFile> inputs = hand_files(arguments.hands);
+  inputs.insert(inputs.end(), {{"IN", arguments.recording},
+                               {"CORRECTED", arguments.corrected},
+                               object_file(arguments.object)});
+  return check_apart({{"--output", output}}, inputs);
+}
+
 Result<Show> prepare(const ShowArguments& arguments) {
   const Result<Headers> headers = read_headers(arguments);
   if (!headers) return headers.error();

@@ -25,6 +25,9 @@ struct ShowArguments {
 };
 void add_show_options(CLI::App& command, ShowArguments& arguments);
 
+/// Refuses to draw over anything that is shown.
+[[nodiscard]] Status check_apart(const std::string& output, const ShowArguments& arguments);
+
 /// All that is known before the first picture.
 struct Show {
   draw::HandMeshes hands;

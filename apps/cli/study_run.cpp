@@ -4,7 +4,9 @@
 
 #include <filesystem>
 #include <utility>
+#include <vector>
 
+#include "command_files.h"
 #include "console.h"
 #ifdef NADE_CLI_VIEWER
 #include "method_options.h"
@@ -29,6 +31,10 @@ struct DesktopArguments {
 constexpr std::size_t kFramesMax = 10'000'000;
 
 Status run_on_desktop(const StudyRunArguments& study, const DesktopArguments& arguments) {
+  std::vector<NamedFile> inputs = hand_files(arguments.hands);
+  inputs.push_back({"PLAN", study.plan});
+  const Status apart = check_apart(arguments.window, std::move(inputs));
+  if (!apart) return apart;
   Result<viewer::Run> run = run_of(arguments.window);
   if (!run) return run.error();
   if (arguments.window.headless && !run->frames) run->frames = kFramesMax;
@@ -79,6 +85,9 @@ struct RunArguments {
 };
 
 Status run_study(const RunArguments& arguments) {
+  const Status apart =
+      check_apart({{"--panel-log", arguments.study.panel_log}}, {{"PLAN", arguments.study.plan}});
+  if (!apart) return apart;
   if (arguments.headset_asked) return run_study_in_headset(arguments.study);
   return run_on_desktop(arguments.study, arguments.desktop);
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "command_files.h"
 #include "commands.h"
 #include "console.h"
 #include "nade/correction.h"
@@ -78,6 +79,9 @@ struct FarthestJump {
 };
 
 Status run_synth(const SynthArguments& arguments) {
+  const Status apart =
+      check_apart({{"--output", arguments.output}}, {object_file(arguments.object)});
+  if (!apart) return apart;
   SynthOptions options = arguments.synth;
   options.tilt_rad = arguments.tilt_deg * kDegree;
   const Result<PlacedObject> placed = load_placed(arguments.object);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "commands.h"
 #include "method_options.h"
@@ -61,6 +62,10 @@ Status run_view(const ViewArguments& arguments) {
   if (window.screenshot && !window.headless && !window.frames) {
     return misuse("--screenshot of a window is of its last frame: expected --frames N with it");
   }
+  std::vector<NamedFile> inputs = hand_files(arguments.hands);
+  inputs.insert(inputs.end(), {{"RECORDING", arguments.recording}, object_file(arguments.object)});
+  const Status apart = check_apart(window, std::move(inputs));
+  if (!apart) return apart;
   const Result<viewer::Run> run = run_of(window);
   if (!run) return run.error();
   Result<viewer::ViewerSetup> setup = setup_of(arguments);

@@ -28,6 +28,11 @@ void add_window_options(CLI::App& command, WindowOptions& options, std::size_t f
       ->type_name("FILE");
 }
 
+Status check_apart(const WindowOptions& options, std::vector<NamedFile> inputs) {
+  inputs.push_back({"--script", options.script});
+  return check_apart({{"--screenshot", options.screenshot}}, inputs);
+}
+
 Result<viewer::Run> run_of(const WindowOptions& options) {
   viewer::Run run;
   run.width = options.size.width;

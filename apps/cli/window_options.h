@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "command_files.h"
 #include "nade/status.h"
 #include "picture_options.h"
 #include "window.h"
@@ -23,6 +25,9 @@ struct WindowOptions {
 /// `without_display` is how long it stays there if nothing is said, for the help.
 void add_window_options(CLI::App& command, WindowOptions& options, std::size_t frames_max,
                         const std::string& without_display);
+
+/// Refuses a screenshot that would go over the script or what else is read.
+[[nodiscard]] Status check_apart(const WindowOptions& options, std::vector<NamedFile> inputs);
 
 /// Reads the script, if there is one. The error names the file and the line.
 [[nodiscard]] Result<viewer::Run> run_of(const WindowOptions& options);

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "choice_option.h"
 #include "chooser.h"
@@ -28,6 +29,11 @@ Status run_xr(const XrArguments& arguments) {
   if (arguments.run.screenshot && !arguments.run.frames) {
     return misuse("--screenshot is of the last frame: expected --frames N with it");
   }
+  std::vector<NamedFile> inputs = hand_files(arguments.hands);
+  inputs.push_back(object_file(arguments.object));
+  const Status apart = check_apart(
+      {{"--record", arguments.run.record}, {"--panel-log", arguments.run.panel_log}}, inputs);
+  if (!apart) return apart;
   Result<draw::HandMeshes> hands = load_hands(arguments.hands);
   if (!hands) return hands.error();
   xr::RoomSetup room;
