@@ -92,6 +92,25 @@ TEST_F(CliMistake, AnEmptyWordIsNoValue) {
   }
 }
 
+TEST_F(CliMistake, AnOptionOfAnotherMethodIsRefused) {
+  make_stroke("in.jsonl");
+  const std::string correct = "correct in.jsonl -o out.jsonl --object plane ";
+  for (const char* options :
+       {"--hits any", "--release 0.1 --method none", "--skin mesh --method nade",
+        "--paper-literal --method nade", "--paper-literal --method none"}) {
+    expect_misuse(nade(correct + options), ": only with --method paper");
+  }
+  for (const char* options : {"--softness 5 --method paper", "--friction 1 --method none",
+                              "--softness 5 --paper-literal"}) {
+    expect_misuse(nade(correct + options), ": only with --method nade");
+  }
+  EXPECT_EQ(files(), std::vector<std::string>{"in.jsonl"});
+  for (const char* options : {"--hits any --method paper", "--paper-literal --method paper",
+                              "--paper-literal", "--softness 5 --friction 1"}) {
+    EXPECT_EQ(nade(correct + options).status, 0) << options;
+  }
+}
+
 TEST_F(CliMistake, NoOutputIsWrittenOverWhatIsNeeded) {
   make_stroke("in.jsonl");
   ASSERT_EQ(nade("correct in.jsonl -o out.jsonl --object plane").status, 0);

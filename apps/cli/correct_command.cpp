@@ -152,6 +152,8 @@ Status run_correct(const CorrectArguments& arguments) {
   if (!arguments.object.object) {
     return misuse("--object is needed: plane, sphere, dog or a mesh file");
   }
+  const Status method = check_method(arguments.method, MethodChange::never);
+  if (!method) return method;
   const Status apart = check_apart({{"--output", arguments.output}, {"--json", arguments.json}},
                                    {{"IN", arguments.input}, object_file(arguments.object)});
   if (!apart) return apart;

@@ -1,8 +1,11 @@
 #include "method_options.h"
 
+#include <fmt/format.h>
+
 #include <vector>
 
 #include "choice_option.h"
+#include "commands.h"
 #include "nade/io/hand_file.h"
 #include "number_options.h"
 
@@ -10,6 +13,9 @@ namespace nade::cli {
 namespace {
 
 constexpr const char* kGroup = "Open points of --method paper (docs/method.md)";
+constexpr const char* kMethod = "--method";
+constexpr const char* kSoftness = "--softness";
+constexpr const char* kFriction = "--friction";
 
 const std::vector<Choice<Method>>& methods() {
   static const std::vector<Choice<Method>> kMethods{
@@ -71,20 +77,29 @@ void add_open_points(CLI::App& command, CorrectorOptions& options) {
       ->group(kGroup);
 }
 
+/// The method that an option belongs to; no value where it says which.
+std::optional<Method> method_of(const CLI::Option& option) {
+  if (option.get_group() == kGroup) return Method::paper;
+  const std::string name = option.get_name();
+  if (name == kSoftness || name == kFriction) return Method::nade;
+  return std::nullopt;
+}
+
 }  // namespace
 
 void add_method_options(CLI::App& command, MethodOptions& options) {
-  add_choice<Method>(command, "--method", options.corrector.method, methods(),
+  options.command = &command;
+  add_choice<Method>(command, kMethod, options.corrector.method, methods(),
                      "how to correct (default nade)");
   command
       .add_option_function<double>(
-          "--softness",
+          kSoftness,
           [&options](const double& mm) { options.corrector.settle.softness_m = 0.001 * mm; },
           "of the object: the skin sinks in by up to so much (method nade; default 0)")
       ->type_name("MM")
       ->check(number_in(0.0, 20.0));
   command
-      .add_option("--friction", options.corrector.settle.friction.coefficient,
+      .add_option(kFriction, options.corrector.settle.friction.coefficient,
                   "to be seen: the hand lags along the surface by up to so many times the pressing "
                   "depth, then slips (method nade; default 0)")
       ->type_name("MU")
@@ -96,6 +111,21 @@ void add_method_options(CLI::App& command, MethodOptions& options) {
   for (CLI::Option* option : command.get_options()) {
     if (option != literal && option->get_group() == kGroup) literal->excludes(option);
   }
+}
+
+Status check_method(const MethodOptions& options, MethodChange change) {
+  const Method asked = options.corrector.method;
+  if (options.literal && options.command->count(kMethod) > 0 && asked != Method::paper) {
+    return misuse("--paper-literal: only with --method paper");
+  }
+  if (change == MethodChange::any_time && !options.literal) return ok_status();
+  for (const CLI::Option* option : options.command->get_options()) {
+    const std::optional<Method> method = method_of(*option);
+    if (option->count() == 0 || !method) continue;
+    if (*method == (options.literal ? Method::paper : asked)) continue;
+    return misuse(fmt::format("{}: only with --method {}", option->get_name(), name_of(*method)));
+  }
+  return ok_status();
 }
 
 CorrectorOptions options_of(const MethodOptions& options) {

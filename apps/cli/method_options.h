@@ -1,11 +1,13 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "nade/corrector.h"
+#include "nade/status.h"
 
 namespace nade::cli {
 
@@ -13,10 +15,17 @@ namespace nade::cli {
 struct MethodOptions {
   CorrectorOptions corrector;
   bool literal = false;
+  const CLI::App* command = nullptr;  ///< that they were added to, and which knows what was given
 };
 
 /// Adds the options to a command. What cannot be read is refused while parsing.
 void add_method_options(CLI::App& command, MethodOptions& options);
+
+/// Whether the person can change the method while the program runs.
+enum class MethodChange : std::uint8_t { never, any_time };
+
+/// Refuses what has no effect with the method that was asked for, or overrides it.
+[[nodiscard]] Status check_method(const MethodOptions& options, MethodChange change);
 
 /// What to make correctors with.
 [[nodiscard]] CorrectorOptions options_of(const MethodOptions& options);

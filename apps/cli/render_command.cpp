@@ -272,6 +272,8 @@ Status run_render(RenderArguments arguments) {
   if (eye && target && (*eye - *target).norm() < 0.001) {
     return misuse("--eye, --target: expected two places apart, found the same");
   }
+  const Status method = check_method(arguments.show.method, MethodChange::never);
+  if (!method) return method;
   const Status apart = check_apart(arguments.output, arguments.show);
   if (!apart) return apart;
   if (arguments.show.recording != "-") return run_on(arguments);

@@ -62,6 +62,8 @@ Status run_view(const ViewArguments& arguments) {
   if (window.screenshot && !window.headless && !window.frames) {
     return misuse("--screenshot of a window is of its last frame: expected --frames N with it");
   }
+  const Status method = check_method(arguments.method, MethodChange::any_time);
+  if (!method) return method;
   std::vector<NamedFile> inputs = hand_files(arguments.hands);
   inputs.insert(inputs.end(), {{"RECORDING", arguments.recording}, object_file(arguments.object)});
   const Status apart = check_apart(window, std::move(inputs));

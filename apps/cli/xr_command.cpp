@@ -29,6 +29,8 @@ Status run_xr(const XrArguments& arguments) {
   if (arguments.run.screenshot && !arguments.run.frames) {
     return misuse("--screenshot is of the last frame: expected --frames N with it");
   }
+  const Status method = check_method(arguments.method, MethodChange::any_time);
+  if (!method) return method;
   std::vector<NamedFile> inputs = hand_files(arguments.hands);
   inputs.push_back(object_file(arguments.object));
   const Status apart = check_apart(
