@@ -184,6 +184,18 @@ TEST_F(RenderCommand, DrawsOverNothingThatIsShown) {
   EXPECT_EQ(read_file(path("in.png")), before);
 }
 
+TEST_F(RenderCommand, WhatWasCorrectedIsNotCorrectedAnew) {
+  make_stroke("in.jsonl");
+  ASSERT_EQ(nade("correct in.jsonl -o out.jsonl --object plane").status, 0);
+  for (const char* recordings : {"in.jsonl out.jsonl", "out.jsonl"}) {
+    for (const char* option : {"--method nade", "--paper-literal", "--friction 1"}) {
+      expect_misuse(render(std::string(recordings) + " -o no.png " + option),
+                    "cannot be used with a corrected recording");
+    }
+    EXPECT_EQ(render(std::string(recordings) + " -o soft.png --softness 5").status, 0);
+  }
+}
+
 TEST_F(RenderCommand, NamesWhatCannotBeUsed) {
   make_stroke("in.jsonl");
   expect_failure(render("nowhere.jsonl -o out.png"), "nowhere.jsonl");

@@ -128,6 +128,16 @@ Status check_method(const MethodOptions& options, MethodChange change) {
   return ok_status();
 }
 
+std::optional<std::string> given_of(const MethodOptions& options) {
+  if (options.command == nullptr) return std::nullopt;
+  for (const CLI::Option* option : options.command->get_options()) {
+    const std::string name = option->get_name();
+    const bool says_how = name == kMethod || (name != kSoftness && method_of(*option));
+    if (says_how && option->count() > 0) return name;
+  }
+  return std::nullopt;
+}
+
 CorrectorOptions options_of(const MethodOptions& options) {
   if (options.literal) return paper_literal();
   CorrectorOptions corrector = options.corrector;

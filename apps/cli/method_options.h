@@ -27,6 +27,10 @@ enum class MethodChange : std::uint8_t { never, any_time };
 /// Refuses what has no effect with the method that was asked for, or overrides it.
 [[nodiscard]] Status check_method(const MethodOptions& options, MethodChange change);
 
+/// The first option that was given of those that say how to correct; no value where none was. The
+/// object's softness is not one of them: it also says how far the drawn object gives way.
+[[nodiscard]] std::optional<std::string> given_of(const MethodOptions& options);
+
 /// What to make correctors with.
 [[nodiscard]] CorrectorOptions options_of(const MethodOptions& options);
 

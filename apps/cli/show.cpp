@@ -52,6 +52,12 @@ Status check(const ShowArguments& arguments, const Headers& headers) {
   if (arguments.corrected && arguments.press_m) {
     return misuse("--press cannot be used with CORRECTED, whose object stood where it stood");
   }
+  const std::optional<std::string> method = given_of(arguments.method);
+  if (method && (arguments.corrected || headers.is_corrected)) {
+    return misuse(fmt::format(
+        "{} cannot be used with a corrected recording, whose hands are as they were corrected",
+        *method));
+  }
   if (arguments.corrected && headers.is_corrected) {
     return Error{ErrorCode::bad_value,
                  fmt::format("{}: expected the tracked recording first, found a corrected one",
