@@ -111,6 +111,17 @@ TEST_F(CliMistake, AnOptionOfAnotherMethodIsRefused) {
   }
 }
 
+TEST_F(CliMistake, ACorrectedRecordingIsNotATrackedOne) {
+  make_stroke("in.jsonl");
+  ASSERT_EQ(nade("correct in.jsonl -o out.jsonl --object plane").status, 0);
+  expect_failure(nade("measure out.jsonl in.jsonl --object plane"),
+                 "out.jsonl: expected the tracked recording first, found a corrected one");
+  expect_failure(nade("correct out.jsonl -o again.jsonl --object plane"),
+                 "out.jsonl: expected a tracked recording, found a corrected one");
+  EXPECT_EQ(files(), (std::vector<std::string>{"in.jsonl", "out.jsonl"}));
+  EXPECT_EQ(nade("measure in.jsonl in.jsonl --object plane").status, 0);
+}
+
 TEST_F(CliMistake, NoOutputIsWrittenOverWhatIsNeeded) {
   make_stroke("in.jsonl");
   ASSERT_EQ(nade("correct in.jsonl -o out.jsonl --object plane").status, 0);

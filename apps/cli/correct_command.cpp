@@ -18,6 +18,7 @@
 #include "object_options.h"
 #include "press_option.h"
 #include "spooled_input.h"
+#include "tracked_check.h"
 
 namespace nade::cli {
 namespace {
@@ -74,6 +75,7 @@ Result<Summary> correct_all(const CorrectArguments& arguments, const std::string
                             PlacedObject& placed) {
   Result<RecordingReader> reader = RecordingReader::open(path);
   if (!reader) return reader.error();
+  if (is_corrected(reader->header())) return not_tracked(path, kTracked);
   Result<std::optional<RecordedFrame>> frame = reader->next();
   if (!frame) return frame.error();
   if (*frame) placed.start_animation((*frame)->time_ns);

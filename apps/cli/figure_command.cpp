@@ -17,6 +17,7 @@
 #include "nade/eval/synth.h"
 #include "number_options.h"
 #include "spooled_input.h"
+#include "tracked_check.h"
 
 namespace nade::cli {
 namespace {
@@ -136,11 +137,7 @@ Result<std::int64_t> time_of(const FigureArguments& arguments, const Show& show)
 
 Result<FigureContent> own_content(const FigureArguments& arguments, Show show,
                                   const std::vector<CorrectorOptions>& methods) {
-  if (!show.has_tracked) {
-    return Error{ErrorCode::bad_value,
-                 fmt::format("{}: expected a tracked recording, found a corrected one",
-                             show.performance.recording)};
-  }
+  if (!show.has_tracked) return not_tracked(show.performance.recording, kTracked);
   const Result<std::int64_t> time = time_of(arguments, show);
   if (!time) return time.error();
   Result<RecordingReader> reader = RecordingReader::open(show.performance.recording);

@@ -13,6 +13,7 @@
 #include "object_options.h"
 #include "press_option.h"
 #include "spooled_input.h"
+#include "tracked_check.h"
 
 namespace nade::cli {
 namespace {
@@ -26,7 +27,17 @@ struct MeasureArguments {
   std::optional<std::string> csv;
 };
 
+/// What is not corrected may stand for what is: so the tracked hand itself is measured.
+Status check_order(const MeasureArguments& arguments, const std::string& tracked_path) {
+  const Result<RecordingReader> tracked = RecordingReader::open(tracked_path);
+  if (!tracked) return tracked.error();
+  if (!is_corrected(tracked->header())) return ok_status();
+  return not_tracked(arguments.tracked, kTrackedFirst);
+}
+
 Result<MeasureReport> measure(const MeasureArguments& arguments, const std::string& tracked_path) {
+  const Status order = check_order(arguments, tracked_path);
+  if (!order) return order.error();
   Result<RecordingPair> pair =
       RecordingPair::open(tracked_path, arguments.tracked, arguments.corrected);
   if (!pair) return pair.error();

@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "console.h"
 #include "press_option.h"
+#include "tracked_check.h"
 
 namespace nade::cli {
 namespace {
@@ -43,7 +44,7 @@ Result<Headers> read_headers(const ShowArguments& arguments) {
     if (json.is_object() && json.contains("softness") && json["softness"].is_number()) {
       headers.softness_m = std::clamp(json["softness"].get<double>(), 0.0, kSoftest_m);
     }
-    headers.is_corrected = json.is_object() && json.contains("method");
+    headers.is_corrected = is_corrected(*header);
   }
   return headers;
 }
@@ -59,9 +60,7 @@ Status check(const ShowArguments& arguments, const Headers& headers) {
         *method));
   }
   if (arguments.corrected && headers.is_corrected) {
-    return Error{ErrorCode::bad_value,
-                 fmt::format("{}: expected the tracked recording first, found a corrected one",
-                             arguments.recording)};
+    return not_tracked(arguments.recording, kTrackedFirst);
   }
   if (!arguments.object.object && !headers.placing) {
     return Error{
