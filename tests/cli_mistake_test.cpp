@@ -122,6 +122,21 @@ TEST_F(CliMistake, ACorrectedRecordingIsNotATrackedOne) {
   EXPECT_EQ(nade("measure in.jsonl in.jsonl --object plane").status, 0);
 }
 
+TEST_F(CliMistake, APipeIsReadAsAFileIs) {
+  make_stroke("in.jsonl");
+  ASSERT_EQ(nade("correct in.jsonl -o out.jsonl --object plane --press 0.02").status, 0);
+  ASSERT_EQ(shell("mkfifo fifo").status, 0);
+  const std::string timed = "(cat in.jsonl >fifo &) ; timeout 20 \"$NADE\" ";
+  const Ran pressed = shell(timed + "correct fifo -o piped.jsonl --object plane --press 0.02");
+  EXPECT_EQ(pressed.status, 0) << pressed.err;
+  EXPECT_EQ(read_file(path("piped.jsonl")), read_file(path("out.jsonl")));
+  const Ran measured = shell(timed + "measure fifo out.jsonl --csv - --press 0.02");
+  EXPECT_EQ(measured.status, 0) << measured.err;
+  const std::string nonsense = "(echo nonsense >fifo &) ; timeout 20 \"$NADE\" ";
+  expect_failure(shell(nonsense + "correct fifo -o no.jsonl --object plane --press 0.02"), "fifo:");
+  expect_failure(shell(nonsense + "measure in.jsonl fifo --object plane"), "fifo:");
+}
+
 TEST_F(CliMistake, NoOutputIsWrittenOverWhatIsNeeded) {
   make_stroke("in.jsonl");
   ASSERT_EQ(nade("correct in.jsonl -o out.jsonl --object plane").status, 0);

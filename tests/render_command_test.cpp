@@ -215,6 +215,8 @@ TEST_F(RenderCommand, StandardInputIsNamedAsSuch) {
   EXPECT_EQ(ran.status, 0) << ran.err;
   EXPECT_EQ(png_size(path("out.png")).width, 160u);
   expect_failure(shell("echo nonsense | \"$NADE\" render - -o no.png"), "standard input");
+  expect_failure(shell("echo nonsense | \"$NADE\" render in.jsonl - -o no.png"), "standard input");
+  expect_misuse(nade("render - - -o no.png"), "IN and CORRECTED cannot both be standard input");
 }
 
 TEST_F(RenderCommand, FigureOfOnesOwnRecording) {

@@ -159,11 +159,10 @@ Status run_correct(const CorrectArguments& arguments) {
   const Status apart = check_apart({{"--output", arguments.output}, {"--json", arguments.json}},
                                    {{"IN", arguments.input}, object_file(arguments.object)});
   if (!apart) return apart;
-  if (arguments.input != "-" || !arguments.press_m) return run_on(arguments, arguments.input);
-  const Result<SpooledInput> spooled = SpooledInput::read();
+  if (!arguments.press_m) return run_on(arguments, arguments.input);
+  const Result<SpooledInput> spooled = SpooledInput::open(arguments.input);
   if (!spooled) return spooled.error();
-  const Status status = run_on(arguments, spooled->path());
-  return status.ok() ? status : Status(spooled->renamed(status.error()));
+  return named(run_on(arguments, spooled->path()), *spooled);
 }
 
 }  // namespace

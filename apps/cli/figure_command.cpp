@@ -221,14 +221,12 @@ Status run_figure(FigureArguments arguments) {
   if (arguments.frame && arguments.time_s) return misuse("--frame and --time exclude each other");
   const Status apart = check_apart(arguments.output, arguments.show);
   if (!apart) return apart;
-  arguments.name = arguments.show.recording;
-  if (arguments.show.recording != "-") return run_on(arguments);
-  arguments.name = "standard input";
-  const Result<SpooledInput> spooled = SpooledInput::read();
-  if (!spooled) return spooled.error();
-  arguments.show.recording = spooled->path();
-  const Status status = run_on(arguments);
-  return status.ok() ? status : Status(spooled->renamed(status.error()));
+  if (!own) return run_on(arguments);
+  const Result<SpooledInput> recording = SpooledInput::open(arguments.show.recording);
+  if (!recording) return recording.error();
+  arguments.name = recording->name();
+  arguments.show.recording = recording->path();
+  return named(run_on(arguments), *recording);
 }
 
 }  // namespace

@@ -28,28 +28,29 @@ struct MeasureArguments {
 };
 
 /// What is not corrected may stand for what is: so the tracked hand itself is measured.
-Status check_order(const MeasureArguments& arguments, const std::string& tracked_path) {
-  const Result<RecordingReader> tracked = RecordingReader::open(tracked_path);
-  if (!tracked) return tracked.error();
-  if (!is_corrected(tracked->header())) return ok_status();
-  return not_tracked(arguments.tracked, kTrackedFirst);
+Status check_order(const SpooledInput& tracked) {
+  const Result<RecordingReader> reader = RecordingReader::open(tracked.path());
+  if (!reader) return reader.error();
+  if (!is_corrected(reader->header())) return ok_status();
+  return not_tracked(tracked.name(), kTrackedFirst);
 }
 
-Result<MeasureReport> measure(const MeasureArguments& arguments, const std::string& tracked_path) {
-  const Status order = check_order(arguments, tracked_path);
+Result<MeasureReport> measure(const MeasureArguments& arguments, const SpooledInput& tracked,
+                              const SpooledInput& corrected) {
+  const Status order = check_order(tracked);
   if (!order) return order.error();
   Result<RecordingPair> pair =
-      RecordingPair::open(tracked_path, arguments.tracked, arguments.corrected);
+      RecordingPair::open(tracked.path(), tracked.name(), corrected.path());
   if (!pair) return pair.error();
   const RecordingHeader& header = pair->corrected_header();
-  auto recorded = placing_from(header.unknown_json, arguments.corrected);
+  auto recorded = placing_from(header.unknown_json, corrected.name());
   if (!recorded) return recorded.error();
   // What was pressed is pressed from where it was told to stand, as when it was corrected.
   if (arguments.press_m && *recorded) (*recorded)->placement = {};
   Result<PlacedObject> placed = load_placed(arguments.object, *recorded);
   if (!placed) return placed.error();
   if (arguments.press_m) {
-    const Status pressed = press_onto(tracked_path, *arguments.press_m, *placed);
+    const Status pressed = press_onto(tracked.path(), *arguments.press_m, *placed);
     if (!pressed) return pressed.error();
   }
   Progress progress("measured", pair->frames());
@@ -77,18 +78,15 @@ Status run_measure(const MeasureArguments& arguments) {
                                     {"CORRECTED", arguments.corrected},
                                     object_file(arguments.object)});
   if (!apart) return apart;
-  std::optional<SpooledInput> spooled;
-  if (arguments.tracked == kStandardStream) {
-    if (arguments.corrected == kStandardStream) {
-      return misuse("TRACKED and CORRECTED cannot both be standard input");
-    }
-    Result<SpooledInput> input = SpooledInput::read();
-    if (!input) return input.error();
-    spooled = std::move(input).value();
+  if (arguments.tracked == kStandardStream && arguments.corrected == kStandardStream) {
+    return misuse("TRACKED and CORRECTED cannot both be standard input");
   }
-  const Result<MeasureReport> report =
-      measure(arguments, spooled ? spooled->path() : arguments.tracked);
-  if (!report) return spooled ? spooled->renamed(report.error()) : report.error();
+  const Result<SpooledInput> tracked = SpooledInput::open(arguments.tracked);
+  if (!tracked) return tracked.error();
+  const Result<SpooledInput> corrected = SpooledInput::open(arguments.corrected);
+  if (!corrected) return corrected.error();
+  const Result<MeasureReport> report = measure(arguments, *tracked, *corrected);
+  if (!report) return tracked->renamed(corrected->renamed(report.error()));
   if (arguments.json) {
     const Status written = write_whole(*arguments.json, as_json(*report));
     if (!written) return written;

@@ -264,8 +264,8 @@ Status run_on(const RenderArguments& arguments) {
 }
 
 Status run_render(RenderArguments arguments) {
-  if (arguments.show.corrected == "-") {
-    return misuse("CORRECTED cannot be standard input: expected a file");
+  if (arguments.show.recording == kStandardStream && arguments.show.corrected == kStandardStream) {
+    return misuse("IN and CORRECTED cannot both be standard input");
   }
   const std::optional<Vec3>& eye = arguments.camera.eye;
   const std::optional<Vec3>& target = arguments.camera.target;
@@ -276,12 +276,14 @@ Status run_render(RenderArguments arguments) {
   if (!method) return method;
   const Status apart = check_apart(arguments.output, arguments.show);
   if (!apart) return apart;
-  if (arguments.show.recording != "-") return run_on(arguments);
-  const Result<SpooledInput> spooled = SpooledInput::read();
-  if (!spooled) return spooled.error();
-  arguments.show.recording = spooled->path();
-  const Status status = run_on(arguments);
-  return status.ok() ? status : Status(spooled->renamed(status.error()));
+  const Result<SpooledInput> recording = SpooledInput::open(arguments.show.recording);
+  if (!recording) return recording.error();
+  arguments.show.recording = recording->path();
+  if (!arguments.show.corrected) return named(run_on(arguments), *recording);
+  const Result<SpooledInput> corrected = SpooledInput::open(*arguments.show.corrected);
+  if (!corrected) return corrected.error();
+  arguments.show.corrected = corrected->path();
+  return named(named(run_on(arguments), *recording), *corrected);
 }
 
 void add_time_options(CLI::App& command, RenderArguments& arguments) {

@@ -6,23 +6,33 @@
 
 namespace nade::cli {
 
-/// Standard input put into a file, for what has to be read twice. The file goes with this object.
+/// An input that has to be read twice. What can be read but once (standard input, a pipe) is put
+/// into a file first, which goes with this object.
 class SpooledInput {
  public:
-  [[nodiscard]] static Result<SpooledInput> read();
+  /// What is not there at all is left to whoever reads it.
+  [[nodiscard]] static Result<SpooledInput> open(const std::string& name);
   SpooledInput(SpooledInput&& other) noexcept;
   SpooledInput& operator=(SpooledInput&& other) noexcept;
   ~SpooledInput();
 
+  /// Where to read it.
   [[nodiscard]] const std::string& path() const { return path_; }
+  /// What the person calls it.
+  [[nodiscard]] const std::string& name() const { return name_; }
 
   /// The error with the file called what it is to the person.
   [[nodiscard]] Error renamed(Error error) const;
 
  private:
-  SpooledInput() = default;
+  explicit SpooledInput(const std::string& name);
 
+  std::string name_;
   std::string path_;
+  bool ours_ = false;  ///< the file
 };
+
+/// How it went, with the same done to an error.
+[[nodiscard]] Status named(const Status& status, const SpooledInput& input);
 
 }  // namespace nade::cli
