@@ -61,6 +61,20 @@ TEST_F(StudyCommand, ExportsOneTable) {
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 3 * 18);
 }
 
+TEST_F(StudyCommand, NothingIsWrittenAmongTheData) {
+  invent();
+  for (const char* out : {"data/e", "data", "./data/../data/P01/e"}) {
+    expect_misuse(nade(std::string("study export data -o ") + out),
+                  "--output: expected a folder outside the study data, found ");
+  }
+  expect_misuse(nade("study analyse data -o data/P01/report"),
+                "--output: expected a folder outside data/P01, found data/P01/report");
+  expect_misuse(nade("study analyse data/P01 -o data/P01"), "expected a folder outside data/P01");
+  EXPECT_EQ(nade("study check data").status, 0);
+  EXPECT_EQ(nade("study analyse data -o data/report").status, 0);
+  EXPECT_EQ(nade("study export data -o database").status, 0);
+}
+
 TEST_F(StudyCommand, MisuseIsNamed) {
   invent();
   const Ran effect = nade("study simulate plan.json -d other --effect Q7=1");

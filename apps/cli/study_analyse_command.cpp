@@ -5,13 +5,16 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "command_files.h"
 #include "commands.h"
 #include "console.h"
 #include "nade/io/output_file.h"
 #include "nade/study/analysis.h"
 #include "nade/study/contact_metrics.h"
 #include "nade/study/figure.h"
+#include "nade/study/participant.h"
 #include "nade/study/report.h"
 #include "nade/study/study_data.h"
 #include "number_options.h"
@@ -67,7 +70,21 @@ Status write_texts(const AnalyseArguments& arguments, const study::ReportContent
   return write_whole((out / "report.md").string(), study::report_markdown(content));
 }
 
+/// Beside the participants an analysis may lie in the study, but not among one's data.
+Status check_folder(const AnalyseArguments& arguments) {
+  const Result<std::vector<std::string>> found = study::participant_folders(arguments.study);
+  const std::vector<std::string> one{arguments.study};  // of which all is analysed, or a table
+  for (const std::string& folder : found ? *found : one) {
+    if (!lies_in(arguments.out, folder)) continue;
+    return misuse(
+        fmt::format("--output: expected a folder outside {}, found {}", folder, arguments.out));
+  }
+  return ok_status();
+}
+
 Status run_analyse(const AnalyseArguments& arguments) {
+  const Status apart = check_folder(arguments);
+  if (!apart) return apart;
   const Result<study::StudyData> data = study::read_study_data(arguments.study, arguments.plan);
   if (!data) return data.error();
   const Result<study::Analysis> analysis = study::analyse(*data, arguments.options);

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "command_files.h"
 #include "commands.h"
 #include "console.h"
 #include "nade/io/output_file.h"
@@ -103,6 +104,11 @@ struct ExportArguments {
 };
 
 Status run_export(const ExportArguments& arguments) {
+  // There it would count as one of the participants.
+  if (lies_in(arguments.output, arguments.folder)) {
+    return misuse(fmt::format("--output: expected a folder outside the study {}, found {}",
+                              arguments.folder, arguments.output));
+  }
   const Result<study::StudyExport> done = study::export_study(
       arguments.folder, arguments.output,
       [](const std::string& participant) { say(fmt::format("exporting {}", participant)); });
