@@ -229,6 +229,8 @@ TEST_F(RenderCommand, FigureOfOnesOwnRecording) {
   EXPECT_EQ(nade("figure -o no.png --frame 3").status, 2);
   EXPECT_EQ(nade("figure in.jsonl -o no.png --frame 9999").status, 2);
   EXPECT_EQ(nade("figure in.jsonl -o no.png --time 99").status, 2);
+  expect_misuse(nade("figure in.jsonl -o no.jpg"),
+                "--output: expected a name ending in .png, found 'no.jpg'");
   expect_misuse(nade("figure in.jsonl -o no.png --frame -1"),
                 "--frame: expected a whole number, found '-1'");
   expect_failure(nade("figure nowhere.jsonl -o no.png"), "nowhere.jsonl");

@@ -363,6 +363,14 @@ TEST_F(ViewCommandTest, WithoutADisplayItSaysWhatIsMissing) {
   EXPECT_NE(ran.err.find("--headless"), std::string::npos);
 }
 
+TEST_F(ViewCommandTest, AScreenshotIsAPngOfItsOwn) {
+  test::write_file(path("script.png"), "");
+  expect_misuse(nade("view --headless --screenshot v.jpg"),
+                "--screenshot: expected a name ending in .png, found 'v.jpg'");
+  expect_misuse(nade("view --headless --script script.png --screenshot script.png"),
+                "--screenshot: expected another file than that of --script");
+}
+
 TEST_F(ViewCommandTest, BadScriptIsNamed) {
   test::write_file(path("script.txt"), "0 click no-such-thing\n");
   expect_failure(nade("view --headless --object plane --frames 5 --script script.txt"),

@@ -219,6 +219,8 @@ Status run_figure(FigureArguments arguments) {
         "--object, --at, --turn, --scale, --press, --frame or --time");
   }
   if (arguments.frame && arguments.time_s) return misuse("--frame and --time exclude each other");
+  const Status png = check_png("--output", arguments.output);
+  if (!png) return png;
   const Status apart = check_apart(arguments.output, arguments.show);
   if (!apart) return apart;
   if (!own) return run_on(arguments);

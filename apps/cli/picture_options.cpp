@@ -7,6 +7,7 @@
 #include <sstream>
 #include <utility>
 
+#include "commands.h"
 #include "nade/flesh.h"
 #include "nade/io/assets.h"
 #include "nade/io/hand_file.h"
@@ -79,6 +80,11 @@ void use_own_hands(const HandFiles& files, const draw::HandMeshes& hands,
     options.skin = measure_skin_depths(hands[side]);
     options.skin_hand_length_m = hand_length(hands[side].bind);
   }
+}
+
+Status check_png(const std::string& option, const std::string& name) {
+  if (name.ends_with(".png")) return ok_status();
+  return misuse(fmt::format("{}: expected a name ending in .png, found '{}'", option, name));
 }
 
 void add_size_option(CLI::App& command, PictureSize& size) {

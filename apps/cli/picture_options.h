@@ -27,6 +27,9 @@ void add_hand_options(CLI::App& command, HandFiles& options);
 void use_own_hands(const HandFiles& files, const draw::HandMeshes& hands,
                    CorrectorOptions& options);
 
+/// Refuses a name of a picture that does not end in .png: PNG is what is written.
+[[nodiscard]] Status check_png(const std::string& option, const std::string& name);
+
 /// --size WIDTHxHEIGHT.
 struct PictureSize {
   int width = 1280;

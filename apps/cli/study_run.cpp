@@ -33,8 +33,8 @@ constexpr std::size_t kFramesMax = 10'000'000;
 Status run_on_desktop(const StudyRunArguments& study, const DesktopArguments& arguments) {
   std::vector<NamedFile> inputs = hand_files(arguments.hands);
   inputs.push_back({"PLAN", study.plan});
-  const Status apart = check_apart(arguments.window, std::move(inputs));
-  if (!apart) return apart;
+  const Status screenshot = check_screenshot(arguments.window, std::move(inputs));
+  if (!screenshot) return screenshot;
   Result<viewer::Run> run = run_of(arguments.window);
   if (!run) return run.error();
   if (arguments.window.headless && !run->frames) run->frames = kFramesMax;

@@ -66,8 +66,8 @@ Status run_view(const ViewArguments& arguments) {
   if (!method) return method;
   std::vector<NamedFile> inputs = hand_files(arguments.hands);
   inputs.insert(inputs.end(), {{"RECORDING", arguments.recording}, object_file(arguments.object)});
-  const Status apart = check_apart(window, std::move(inputs));
-  if (!apart) return apart;
+  const Status screenshot = check_screenshot(window, std::move(inputs));
+  if (!screenshot) return screenshot;
   const Result<viewer::Run> run = run_of(window);
   if (!run) return run.error();
   Result<viewer::ViewerSetup> setup = setup_of(arguments);

@@ -28,7 +28,10 @@ void add_window_options(CLI::App& command, WindowOptions& options, std::size_t f
       ->type_name("FILE");
 }
 
-Status check_apart(const WindowOptions& options, std::vector<NamedFile> inputs) {
+Status check_screenshot(const WindowOptions& options, std::vector<NamedFile> inputs) {
+  if (!options.screenshot) return ok_status();
+  const Status png = check_png("--screenshot", *options.screenshot);
+  if (!png) return png;
   inputs.push_back({"--script", options.script});
   return check_apart({{"--screenshot", options.screenshot}}, inputs);
 }

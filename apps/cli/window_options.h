@@ -26,8 +26,8 @@ struct WindowOptions {
 void add_window_options(CLI::App& command, WindowOptions& options, std::size_t frames_max,
                         const std::string& without_display);
 
-/// Refuses a screenshot that would go over the script or what else is read.
-[[nodiscard]] Status check_apart(const WindowOptions& options, std::vector<NamedFile> inputs);
+/// Refuses a screenshot that is no PNG file, or would go over the script or what else is read.
+[[nodiscard]] Status check_screenshot(const WindowOptions& options, std::vector<NamedFile> inputs);
 
 /// Reads the script, if there is one. The error names the file and the line.
 [[nodiscard]] Result<viewer::Run> run_of(const WindowOptions& options);
