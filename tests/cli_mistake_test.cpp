@@ -132,6 +132,10 @@ TEST_F(CliMistake, APipeIsReadAsAFileIs) {
   EXPECT_EQ(read_file(path("piped.jsonl")), read_file(path("out.jsonl")));
   const Ran measured = shell(timed + "measure fifo out.jsonl --csv - --press 0.02");
   EXPECT_EQ(measured.status, 0) << measured.err;
+  const Ran cut = shell(
+      "head -c 9000 in.jsonl | \"$NADE\" correct /dev/stdin -o cut.jsonl "
+      "--object plane --press 0.02");
+  EXPECT_EQ(cut.err.rfind("nade: /dev/stdin: line ", 0), 0U) << cut.err;
   const std::string nonsense = "(echo nonsense >fifo &) ; timeout 20 \"$NADE\" ";
   expect_failure(shell(nonsense + "correct fifo -o no.jsonl --object plane --press 0.02"), "fifo:");
   expect_failure(shell(nonsense + "measure in.jsonl fifo --object plane"), "fifo:");

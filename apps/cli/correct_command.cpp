@@ -71,11 +71,11 @@ void correct_hand(RecordedHand& hand, HandCorrector& corrector, const Object& ob
   }
 }
 
-Result<Summary> correct_all(const CorrectArguments& arguments, const std::string& path,
+Result<Summary> correct_all(const CorrectArguments& arguments, const SpooledInput& input,
                             PlacedObject& placed) {
-  Result<RecordingReader> reader = RecordingReader::open(path);
+  Result<RecordingReader> reader = RecordingReader::open(input.path());
   if (!reader) return reader.error();
-  if (is_corrected(reader->header())) return not_tracked(path, kTracked);
+  if (is_corrected(reader->header())) return not_tracked(input.name(), kTracked);
   Result<std::optional<RecordedFrame>> frame = reader->next();
   if (!frame) return frame.error();
   if (*frame) placed.start_animation((*frame)->time_ns);
@@ -100,7 +100,7 @@ Result<Summary> correct_all(const CorrectArguments& arguments, const std::string
     frame = reader->next();
     if (!frame) return frame.error();
   }
-  for (const std::string& warning : reader->warnings()) warn(warning);
+  for (const std::string& warning : reader->warnings()) warn(input.renamed(warning));
   const Status finished = writer->finish();
   if (!finished) return finished.error();
   return summary;
@@ -134,14 +134,14 @@ std::string as_line(const Summary& summary, const CorrectArguments& arguments) {
       summary.solve_us.quantile(0.5).value_or(0.0), summary.solve_us.quantile(0.99).value_or(0.0));
 }
 
-Status run_on(const CorrectArguments& arguments, const std::string& path) {
+Status run_on(const CorrectArguments& arguments, const SpooledInput& input) {
   Result<PlacedObject> placed = load_placed(arguments.object);
   if (!placed) return placed.error();
   if (arguments.press_m) {
-    const Status pressed = press_onto(path, *arguments.press_m, *placed);
+    const Status pressed = press_onto(input.path(), *arguments.press_m, *placed);
     if (!pressed) return pressed;
   }
-  const Result<Summary> summary = correct_all(arguments, path, *placed);
+  const Result<Summary> summary = correct_all(arguments, input, *placed);
   if (!summary) return summary.error();
   if (!arguments.json) {
     say(as_line(*summary, arguments));
@@ -159,10 +159,10 @@ Status run_correct(const CorrectArguments& arguments) {
   const Status apart = check_apart({{"--output", arguments.output}, {"--json", arguments.json}},
                                    {{"IN", arguments.input}, object_file(arguments.object)});
   if (!apart) return apart;
-  if (!arguments.press_m) return run_on(arguments, arguments.input);
-  const Result<SpooledInput> spooled = SpooledInput::open(arguments.input);
-  if (!spooled) return spooled.error();
-  return named(run_on(arguments, spooled->path()), *spooled);
+  const Result<SpooledInput> input = arguments.press_m ? SpooledInput::open(arguments.input)
+                                                       : SpooledInput::unspooled(arguments.input);
+  if (!input) return input.error();
+  return named(run_on(arguments, *input), *input);
 }
 
 }  // namespace

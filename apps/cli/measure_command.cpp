@@ -60,7 +60,9 @@ Result<MeasureReport> measure(const MeasureArguments& arguments, const SpooledIn
         progress.step();
       });
   if (!metrics) return metrics.error();
-  for (const std::string& warning : metrics->warnings) warn(warning);
+  for (const std::string& warning : metrics->warnings) {
+    warn(tracked.renamed(corrected.renamed(warning)));
+  }
   MeasureReport report;
   report.tracked = arguments.tracked;
   report.corrected = arguments.corrected;

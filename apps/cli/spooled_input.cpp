@@ -67,6 +67,8 @@ Result<SpooledInput> SpooledInput::open(const std::string& name) {
   return input;
 }
 
+SpooledInput SpooledInput::unspooled(const std::string& name) { return SpooledInput(name); }
+
 SpooledInput::SpooledInput(SpooledInput&& other) noexcept
     : name_(std::move(other.name_)),
       path_(std::move(other.path_)),
@@ -83,10 +85,14 @@ SpooledInput::~SpooledInput() {
   if (ours_) ::unlink(path_.c_str());
 }
 
+std::string SpooledInput::renamed(std::string sentence) const {
+  const std::size_t at = ours_ ? sentence.find(path_) : std::string::npos;
+  if (at != std::string::npos) sentence.replace(at, path_.size(), name_);
+  return sentence;
+}
+
 Error SpooledInput::renamed(Error error) const {
-  const std::size_t at = ours_ ? error.message.find(path_) : std::string::npos;
-  if (at != std::string::npos) error.message.replace(at, path_.size(), name_);
-  return error;
+  return {error.code, renamed(std::move(error.message))};
 }
 
 Status named(const Status& status, const SpooledInput& input) {

@@ -12,6 +12,8 @@ class SpooledInput {
  public:
   /// What is not there at all is left to whoever reads it.
   [[nodiscard]] static Result<SpooledInput> open(const std::string& name);
+  /// One that is read once only, as it is.
+  [[nodiscard]] static SpooledInput unspooled(const std::string& name);
   SpooledInput(SpooledInput&& other) noexcept;
   SpooledInput& operator=(SpooledInput&& other) noexcept;
   ~SpooledInput();
@@ -21,7 +23,8 @@ class SpooledInput {
   /// What the person calls it.
   [[nodiscard]] const std::string& name() const { return name_; }
 
-  /// The error with the file called what it is to the person.
+  /// A sentence with the file called what it is to the person.
+  [[nodiscard]] std::string renamed(std::string sentence) const;
   [[nodiscard]] Error renamed(Error error) const;
 
  private:

@@ -5,7 +5,6 @@
 #include <string>
 #include <string_view>
 
-#include "command_files.h"
 #include "nade/eval/recording_pair.h"
 #include "nade/io/recording.h"
 #include "nade/status.h"
@@ -20,8 +19,7 @@ namespace nade::cli {
 /// The error where a corrected recording was given and a tracked one is `expected`.
 [[nodiscard]] inline Error not_tracked(const std::string& recording, std::string_view expected) {
   return {ErrorCode::bad_value,
-          fmt::format("{}: expected {}, found a corrected one",
-                      recording == kStandardStream ? "standard input" : recording, expected)};
+          fmt::format("{}: expected {}, found a corrected one", recording, expected)};
 }
 constexpr std::string_view kTracked = "a tracked recording";
 constexpr std::string_view kTrackedFirst = "the tracked recording first";
