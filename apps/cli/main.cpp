@@ -21,8 +21,8 @@ std::string names_of_commands(const CLI::App& app) {
   return names;
 }
 
-/// What is wrong with the words of a command. Of those that are left over CLI11 says nothing where
-/// no command is among them, and else says them backwards.
+/// What is wrong with a command's words. CLI11 does not name what stands where a command should,
+/// and lists what is left over backwards.
 std::string sentence_of(const CLI::App& command, const CLI::ParseError& error) {
   const std::vector<std::string> left = command.remaining();
   if (command.get_require_subcommand_min() > 0 && command.get_subcommands().empty()) {

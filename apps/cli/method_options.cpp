@@ -77,7 +77,7 @@ void add_open_points(CLI::App& command, CorrectorOptions& options) {
       ->group(kGroup);
 }
 
-/// The method that an option belongs to; no value where it says which.
+/// The one method that an option has an effect on, where there is one.
 std::optional<Method> method_of(const CLI::Option& option) {
   if (option.get_group() == kGroup) return Method::paper;
   const std::string name = option.get_name();
