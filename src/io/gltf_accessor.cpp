@@ -6,33 +6,19 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <optional>
 #include <span>
 #include <string_view>
 
 #include "gltf_document.h"
+#include "whole_file.h"
 
 namespace nade::gltf {
 namespace {
 
 /// Elements that an accessor may have without a byte of the file behind each.
 constexpr std::size_t kMostZeros = 10'000'000;
-
-Result<std::string> read_bytes(const std::string& path) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) {
-    return Error{ErrorCode::not_found, fmt::format("{}: no such file", path)};
-  }
-  std::ifstream stream(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (!stream.is_open() || stream.bad() || std::filesystem::is_directory(path, ignored)) {
-    return Error{ErrorCode::unreadable, fmt::format("{}: cannot be read", path)};
-  }
-  return bytes;
-}
 
 /// The first line of what tinygltf has to say.
 std::string first_line(const std::string& text) {
@@ -250,7 +236,7 @@ Result<std::vector<Number>> read_numbers(const AccessorRef& ref, int components,
 }  // namespace
 
 Result<tinygltf::Model> read_model(const std::string& path, Pictures pictures) {
-  Result<std::string> bytes = read_bytes(path);
+  Result<std::string> bytes = io::read_whole(path);
   if (!bytes) return bytes.error();
   if (bytes->size() > std::numeric_limits<unsigned int>::max()) {
     return Error{ErrorCode::bad_format, fmt::format("{}: too large for a hand", path)};

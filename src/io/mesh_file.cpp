@@ -17,6 +17,7 @@
 
 #include "mesh_formats.h"
 #include "obj_text.h"
+#include "whole_file.h"
 
 namespace nade {
 namespace {
@@ -126,10 +127,9 @@ Result<TriangleSoup> read_obj(const std::string& path) {
 }
 
 Result<TriangleSoup> read_plain(const std::string& path, std::string_view ending) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string content{std::istreambuf_iterator<char>(file), {}};
-  if (file.bad()) return refuse(ErrorCode::unreadable, path, "cannot be read to its end");
-  const io::MeshText text{path, content};
+  const Result<std::string> content = io::read_whole(path);
+  if (!content) return content.error();
+  const io::MeshText text{path, *content};
   if (ending == ".off") return io::read_off(text);
   return ending == ".ply" ? io::read_ply(text) : io::read_stl(text);
 }
