@@ -218,8 +218,8 @@ void HandCorrector::follow_length(double length_m) noexcept {
   const bool same = std::abs(longer_m) < kOtherLength * hand_length_m_;
   if (same || (longer_m > 0.0) != (frames_longer_ > 0)) frames_longer_ = 0;
   if (!same) frames_longer_ += longer_m > 0.0 ? 1 : -1;
-  if (std::abs(frames_longer_) > kOtherLengthFrames)
-    frames_ = std::min(frames_, kOtherLengthFrames);
+  const bool is_other = std::abs(frames_longer_) > kOtherLengthFrames;
+  if (is_other) frames_ = std::min(frames_, kOtherLengthFrames);
   frames_ = std::min(frames_ + 1, kLengthFrames);
   hand_length_m_ += longer_m / static_cast<double>(frames_);
   if (options_.hand_length_m > 0.0) hand_length_m_ = options_.hand_length_m;

@@ -50,10 +50,6 @@ constexpr double kSoftnessTime_s = 0.2;
 /// come out, and is no farther from there than this.
 constexpr double kPressesOn_m = 0.08;
 
-/// Another object displaces a hand that goes farther at once, besides so many times its own motion.
-constexpr double kDisplaced_m = 0.005;
-constexpr double kDisplacedOfMotion = 3.0;
-
 constexpr int kRounds = 3;
 constexpr int kFirstRounds = 40;
 /// A round that moves no skin farther than this is the last.
@@ -391,10 +387,7 @@ HandPose Settling::on_its_way_back(const HandPose& settled) {
 bool Settling::is_displaced() const {
   if (!seen_.before) return false;
   if (fresh_) return true;
-  if (!seen_.at_another) return false;
-  const auto& [correction, way_m] = *seen_.before;
-  const HandFreedoms step = step_between(correction, correction_, Eigen::Matrix3d::Identity());
-  return reach_of(step) > kDisplaced_m + kDisplacedOfMotion * way_m;
+  return seen_.at_another && is_thrown(*seen_.before, correction_);
 }
 
 SettledHand Settling::finish(const HandPose& posed) {

@@ -117,7 +117,7 @@ SeenHand see_hand(const HandPose& tracked, const Object& object, double seconds,
 
 std::optional<RayHit> ScaledSurface::first_hit(const Ray& ray) const noexcept {
   std::optional<RayHit> hit =
-      surface_.first_hit({ray.origin / scale_, ray.direction, ray.max_distance / scale_});
+      surface().first_hit({ray.origin / scale_, ray.direction, ray.max_distance / scale_});
   if (!hit) return std::nullopt;
   hit->distance *= scale_;
   hit->point *= scale_;
@@ -127,7 +127,7 @@ std::optional<RayHit> ScaledSurface::first_hit(const Ray& ray) const noexcept {
 std::optional<SurfacePoint> ScaledSurface::closest_point(const Vec3& query, double max_distance_m,
                                                          SurfaceHint& hint) const noexcept {
   std::optional<SurfacePoint> found =
-      surface_.closest_point(query / scale_, max_distance_m / scale_, hint);
+      surface().closest_point(query / scale_, max_distance_m / scale_, hint);
   if (!found) return std::nullopt;
   found->point *= scale_;
   found->signed_distance *= scale_;

@@ -49,11 +49,9 @@ struct SeenHand {
 class ScaledSurface {
  public:
   explicit ScaledSurface(const Object& object)
-      : surface_(object.surface()),
-        identity_(object.identity()),
-        scale_(object.placement().scale) {}
+      : identity_(object.identity()), scale_(object.placement().scale) {}
 
-  [[nodiscard]] const Surface& surface() const { return surface_; }
+  [[nodiscard]] const Surface& surface() const { return *identity_.surface; }
   [[nodiscard]] const ObjectIdentity& identity() const { return identity_; }
   [[nodiscard]] double scale() const { return scale_; }
   [[nodiscard]] std::optional<RayHit> first_hit(const Ray& ray) const noexcept;
@@ -61,7 +59,6 @@ class ScaledSurface {
                                                           SurfaceHint& hint) const noexcept;
 
  private:
-  const Surface& surface_;
   ObjectIdentity identity_;
   double scale_;
 };

@@ -21,6 +21,9 @@ constexpr double kOnItsWay_s = 0.1;
 constexpr double kPatience_s = 1.0;
 constexpr double kStuck_m = 0.13;
 constexpr double kPatienceOfWay = 3.0;
+/// Another object throws a hand that goes farther at once, besides so many times its own motion.
+constexpr double kThrown_m = 0.005;
+constexpr double kThrownOfMotion = 3.0;
 /// It comes back through the object by up to so many times the tracked hand's motion, and so fast.
 constexpr double kReturnOfMotion = 1.8;
 constexpr double kReturn_mps = 0.17;
@@ -68,6 +71,11 @@ bool follow_leaving(const TouchSearch& search, SettleMemory& memory) noexcept {
   const double pace = away_m > kStuck_m ? passing * away_m / kStuck_m : -1.0;
   memory.stuck_s = std::max(0.0, memory.stuck_s + pace * search.seconds);
   return memory.stuck_s > kPatience_s;
+}
+
+bool is_thrown(const ShownBefore& before, const Correction& now) noexcept {
+  const HandFreedoms step = step_between(before.correction, now, Eigen::Matrix3d::Identity());
+  return reach_of(step) > kThrown_m + kThrownOfMotion * before.way_m;
 }
 
 void start_return(const Correction& from, const Correction& to, SettleMemory& memory) noexcept {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "nade/settle.h"
+#include "settle_frame.h"
 #include "touch_finder.h"
 
 namespace nade {
@@ -14,6 +15,9 @@ namespace nade {
 /// Takes in whether the tracked hand is clear of the object. Whether that lets the drawn one go:
 /// then it is to be found anew. Not for one that is.
 [[nodiscard]] bool follow_leaving(const TouchSearch& search, SettleMemory& memory) noexcept;
+
+/// Whether a hand that was drawn so goes farther at once than it does by itself.
+[[nodiscard]] bool is_thrown(const ShownBefore& before, const Correction& now) noexcept;
 
 /// A hand that was let go is drawn on its way back from one correction to another. What is left of
 /// that, `return_share` of `returning`, is counted along the object's axes.
