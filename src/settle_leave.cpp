@@ -13,6 +13,9 @@ namespace {
 constexpr double kFar_m = 0.04;
 /// The tracked hand is clear where all of its flesh is so far out.
 constexpr double kClear_m = 0.006;
+/// It presses elsewhere, as on the table that the thing stands on before which the drawn one was
+/// left, where it is no deeper than this share of how far off the drawn one is.
+constexpr double kShallow = 0.25;
 /// It is on its way out, and not held up, until it has been clear for so long.
 constexpr double kOnItsWay_s = 0.1;
 /// What is held up so long, with a joint farther off than this, is let go; sooner, the farther off,
@@ -21,6 +24,8 @@ constexpr double kOnItsWay_s = 0.1;
 constexpr double kPatience_s = 1.0;
 constexpr double kStuck_m = 0.13;
 constexpr double kPatienceOfWay = 3.0;
+/// A hand that presses elsewhere may stroke back to the drawn one: it is waited for, and longer.
+constexpr double kPatienceElsewhere_s = 2.0;
 /// Another object throws a hand that goes farther at once, besides so many times its own motion.
 constexpr double kThrown_m = 0.005;
 constexpr double kThrownOfMotion = 3.0;
@@ -38,16 +43,17 @@ double out_by(const TouchSearch& search, std::size_t pad, const SettleMemory& me
   return nearest ? nearest->signed_distance : kDeepest_m;
 }
 
-/// It is asked again and again: where the last look ended comes first, and what was far out is
-/// looked at when it may have come back.
-bool is_tracked_clear(const TouchSearch& search, SettleMemory& memory) {
+/// Whether all of the tracked hand is so far out; below 0, whether no more than that inside. It is
+/// asked again and again: where the last look ended comes first, and what has to spare is looked
+/// at when that may be gone.
+bool is_tracked_out(const TouchSearch& search, double out_m, SettleMemory& memory) {
   const std::size_t pads = memory.pads.size();
   for (std::size_t i = 0; i < pads; ++i) {
     const std::size_t pad = (memory.last_inside + i) % pads;
-    if (memory.way_m < memory.pads[pad].out_until_m) continue;
-    const double to_spare_m = out_by(search, pad, memory) - kClear_m;
-    memory.pads[pad].out_until_m = memory.way_m + to_spare_m;
-    if (to_spare_m > 0.0) continue;
+    double& out_until_m = memory.pads[pad].out_until_m;
+    if (memory.way_m + out_m < out_until_m) continue;
+    out_until_m = memory.way_m + out_by(search, pad, memory);
+    if (memory.way_m + out_m < out_until_m) continue;
     memory.last_inside = pad;
     return false;
   }
@@ -61,16 +67,18 @@ bool is_held_up(const SettleMemory& memory) noexcept { return memory.clear_s > k
 bool follow_leaving(const TouchSearch& search, SettleMemory& memory) noexcept {
   const double away_m = largest_motion(memory.last.drawn, *memory.last.tracked);
   const bool far = !memory.contact.push.isZero() && (memory.clear_s > 0.0 || away_m > kFar_m);
-  const bool clear = far && is_tracked_clear(search, memory);
+  const bool clear = far && is_tracked_out(search, kClear_m, memory);
   memory.clear_s = clear ? memory.clear_s + search.seconds : 0.0;
-  if (!is_held_up(memory)) {
+  const bool elsewhere =
+      far && !clear && away_m > kStuck_m && is_tracked_out(search, -kShallow * away_m, memory);
+  if (!is_held_up(memory) && !elsewhere) {
     memory.stuck_s = 0.0;
     return false;
   }
-  const double passing = 1.0 + kPatienceOfWay * search.speed_mps;
+  const double passing = elsewhere ? 1.0 : 1.0 + kPatienceOfWay * search.speed_mps;
   const double pace = away_m > kStuck_m ? passing * away_m / kStuck_m : -1.0;
   memory.stuck_s = std::max(0.0, memory.stuck_s + pace * search.seconds);
-  return memory.stuck_s > kPatience_s;
+  return memory.stuck_s > (elsewhere ? kPatienceElsewhere_s : kPatience_s);
 }
 
 bool is_thrown(const ShownBefore& before, const Correction& now) noexcept {

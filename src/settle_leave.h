@@ -7,13 +7,14 @@
 namespace nade {
 
 // What becomes of a drawn hand that is held up by an object which the person's has left: lifted
-// over the edge that it was pressed in beside, or gone right through.
+// over the edge that it was pressed in beside, or gone right through, or on along the table past
+// what stands on it.
 
 /// Whether the object holds up a hand that has left it.
 [[nodiscard]] bool is_held_up(const SettleMemory& memory) noexcept;
 
-/// Takes in whether the tracked hand is clear of the object. Whether that lets the drawn one go:
-/// then it is to be found anew. Not for one that is.
+/// Takes in whether the tracked hand is clear of the object, or presses elsewhere. Whether that
+/// lets the drawn one go: then it is to be found anew. Not for one that is.
 [[nodiscard]] bool follow_leaving(const TouchSearch& search, SettleMemory& memory) noexcept;
 
 /// Whether a hand that was drawn so goes farther at once than it does by itself.

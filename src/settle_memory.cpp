@@ -22,7 +22,8 @@ void forget_planes(SettleMemory& memory) noexcept {
   for (PadMemory& pad : memory.pads) {
     pad.plane.reset();
     pad.beside = {};
-    pad.clearance_m = pad.free_m = pad.out_until_m = 0.0;
+    pad.clearance_m = pad.free_m = 0.0;
+    pad.out_until_m = PadMemory{}.out_until_m;
   }
 }
 

@@ -118,5 +118,21 @@ TEST(SettleLeave, AHandPressedThroughABoardStaysOnTheSideItCameFrom) {
   EXPECT_LT(std::abs(lowest_skin(drawn, object)), 0.001);
 }
 
+/// Into a block's front, 20 mm below its top, onto the top and to rest there: it hung before the
+/// front for good, 340 mm off.
+TEST(SettleLeave, AHandThatPressesElsewhereComesBack) {
+  const auto surface = block({0.3F, 0.1F, 0.2F});
+  const Object object(*surface);
+  HandPose drawn;
+  const auto away_m = away_from(
+      [](int i) {
+        return pressed_hand(0.02 - 0.01 * gone(i, 1.5), 0.0, {0.0, 0.0, 0.4 - 0.4 * gone(i, 0.5)});
+      },
+      object, drawn);
+  EXPECT_GT(*std::max_element(away_m.begin(), away_m.end()), 0.13);
+  EXPECT_LT(away_m.back(), 0.06);
+  EXPECT_LT(std::abs(lowest_skin(drawn, object)), 0.001);
+}
+
 }  // namespace
 }  // namespace nade

@@ -56,7 +56,8 @@ struct PadMemory {
   double same_m = 0.0;            ///< the plane serves within this of there
   double clearance_m = 0.0;       ///< there; more where its skin faces away
   double free_m = 0.0;            ///< what was left of that when last seen, plus `travel_m` then
-  double out_until_m = 0.0;  ///< the tracked hand's pad is out of the object up to this `way_m`
+  /// By how much the tracked hand's pad is out of the object at the least, plus `way_m`.
+  double out_until_m = -std::numeric_limits<double>::infinity();
 };
 
 /// What is drawn to the surface: each part, and the skin that is nearest to it, whichever it is.
