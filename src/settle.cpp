@@ -83,7 +83,6 @@ class Settling {
 
   SettledHand run() {
     const int rounds = fresh_ ? kFirstRounds : kRounds;
-    const double firmness = search_.strengths[kNearestSkin];  // so that no pull overcomes it
     PosedHand posed = pose_hand(model_, correction_);
     for (int round = 0; round < rounds; ++round) {
       if (fresh_) {
@@ -92,6 +91,7 @@ class Settling {
       patches_ = find_touches(search_, posed, memory_);
       if (memory_.rows.empty() && is_none(correction_)) break;
       SettleProblem problem = problem_at(posed, round);
+      const double firmness = firmness_of_hold();
       HandFreedoms step = least_cost_step(problem, HandFreedoms::Zero());
       Correction corrected = after(step);
       PosedHand next = pose_hand(model_, corrected);
@@ -121,6 +121,10 @@ class Settling {
   [[nodiscard]] double find_sink();
   [[nodiscard]] Correction after(const HandFreedoms& step) const;
   [[nodiscard]] SettleProblem problem_at(const PosedHand& posed, int round) const;
+  /// So firmly that neither a pull nor a climb overcomes it.
+  [[nodiscard]] double firmness_of_hold() const {
+    return std::max(search_.strengths[kNearestSkin], firmness_of_climb(memory_.rows));
+  }
   [[nodiscard]] bool is_in_air() const {
     return !fresh_ && (memory_.contact.push.isZero() || is_held_up(memory_));
   }
@@ -260,7 +264,6 @@ Correction Settling::after(const HandFreedoms& step) const {
 
 SettleProblem Settling::problem_at(const PosedHand& posed, int round) const {
   SettleProblem problem;
-  problem.rows = memory_.rows;
 
   HandFreedoms away = step_between({}, correction_, search_.frame);
   away.head<3>() -=
@@ -273,6 +276,7 @@ SettleProblem Settling::problem_at(const PosedHand& posed, int round) const {
     fold_alike(posed, patches_, problem.springs);
     if (!in_air) lift_over(posed, search_, memory_.rows, problem.springs);
   }
+  problem.rows = memory_.rows;
 
   const HandFreedoms changed = step_between(last_, correction_, search_.frame);
   if (!fresh_) {

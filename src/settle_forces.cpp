@@ -13,7 +13,7 @@ ContactForces contact_forces(const PosedHand& posed, const std::vector<ContactRo
   std::array<Eigen::Matrix4d, kDigitCount> bend;
   bend.fill(Eigen::Matrix4d::Zero());
   for (const ContactRow& row : rows) {
-    if (row.kind == RowKind::hold_back) continue;
+    if (row.kind == RowKind::climb || row.kind == RowKind::hold_back) continue;
     const double gap_m = gap_after(row, step);
     if (const double force = force_at(row, gap_m); force != 0.0) {
       const LeverGrowth growth = lever_growth(posed, row, frame);

@@ -27,16 +27,58 @@ constexpr double kAsideOfLift = 0.5;
 /// Nearly twice as hard as a part is drawn to the surface.
 constexpr double kLift = 150.0;
 
+/// What presses a digit against a side pushes it down as well, the harder the farther the hand goes
+/// on. So it climbs whatever is no higher above its skin than so many times what that is held back
+/// by: surely where it is held back by so much, and the side is so steep.
+constexpr double kHighestClimb = 2.0;
+constexpr double kSurelyClimbs_m = 0.012;
+constexpr double kClimbsFrom = 0.35;
+constexpr double kSurelyClimbs = 0.05;
+/// In this time as far as it is held back by, but no faster than the hand goes, nearly.
+constexpr double kClimbTime_s = 0.1;
+constexpr double kClimbAtRest_mps = 0.03;
+constexpr double kClimbOfSpeed = 0.7;
+/// A third of the surface's.
+constexpr double kClimbStiffness = 3.6e6;
+/// No less firmly is the hand held back then.
+constexpr double kFirmness = 27.0;
+/// Above what is climbed there is room, so far on from where the skin is.
+constexpr double kBefore_m = 0.003;
+constexpr double kRoom_m = 0.02;
+
 /// A digit's skin that is held back farthest.
 struct Held {
   double by_m = 0.0;
   const FleshPoint* point = nullptr;
+  Vec3 back = Vec3::Zero();  ///< unit, off the side and along the hand
+  double climbs = 0.0;       ///< the share of a climb that the side's steepness is worth
 };
+
+/// Whether what holds a digit back is low enough to be climbed.
+bool is_low(const PosedHand& posed, const TouchSearch& search, const Held& held, const Vec3& up) {
+  const Vec3 above = posed.flesh.position(*held.point) + kHighestClimb * held.by_m * up;
+  return !search.object.first_hit({above + kBefore_m * held.back, -held.back, kRoom_m});
+}
+
+void climb(const PosedHand& posed, const TouchSearch& search, Digit digit, const Held& held,
+           const Vec3& up, std::vector<ContactRow>& rows) {
+  if (!is_low(posed, search, held, up)) return;
+  const double share = held.climbs * smoothstep(kHeld_m, kSurelyClimbs_m, held.by_m);
+  for (ContactRow& row : rows) {
+    if (row.kind == RowKind::draw_near && row.digit == digit) row.stiffness *= 1.0 - share;
+  }
+  const double rate_mps =
+      std::min(held.by_m / kClimbTime_s, kClimbAtRest_mps + kClimbOfSpeed * search.speed_mps);
+  ContactRow& row = rows.emplace_back(motion_along(posed, *held.point, up, search.frame));
+  row.kind = RowKind::climb;
+  row.gap_m = -share * rate_mps * search.seconds;  // no lower in any case
+  row.stiffness = kClimbStiffness;
+}
 
 }  // namespace
 
-void lift_over(const PosedHand& posed, const TouchSearch& search,
-               const std::vector<ContactRow>& rows, Springs& springs) noexcept {
+void lift_over(const PosedHand& posed, const TouchSearch& search, std::vector<ContactRow>& rows,
+               Springs& springs) noexcept {
   // The push would not do for what is up: it turns to what holds the hand back.
   const Vec3 back = search.tracked.linear[index_of(Joint::palm)].col(1).normalized();
   const double along = back.dot(search.frame.col(2));
@@ -50,11 +92,14 @@ void lift_over(const PosedHand& posed, const TouchSearch& search,
     const double steep = smoothstep(kNotSteep, kSteep, std::abs(normal.dot(up)));
     if (steep == 0.0) continue;
     const Vec3 off = posed.flesh.position(*row.point) - search.tracked.position(*row.point);
-    const double before_m = off.dot(along_surface(normal, up).normalized());
+    const Vec3 off_side = along_surface(normal, up).normalized();
+    const double before_m = off.dot(off_side);
     const double by_m = flat * steep * smoothstep(kTouches_m, 0.0, row.gap_m) *
                         (before_m - kAsideOfLift * std::max(0.0, off.dot(up)));
     Held& most = held[index_of(*row.digit)];
-    if (by_m > most.by_m) most = {by_m, row.point};
+    if (by_m <= most.by_m) continue;
+    const double climbs = flat * smoothstep(kClimbsFrom, kSurelyClimbs, std::abs(normal.dot(up)));
+    most = {by_m, row.point, off_side, climbs};
   }
   for (std::size_t d = 0; d < kDigitCount; ++d) {
     if (held[d].by_m <= kHeld_m) continue;
@@ -62,7 +107,13 @@ void lift_over(const PosedHand& posed, const TouchSearch& search,
     const ContactRow motion = motion_along(posed, *held[d].point, up, search.frame);
     springs.force.head<6>() += lift * motion.wrist;
     springs.force.segment<4>(first_freedom(d)) += lift * motion.bend;
+    climb(posed, search, digit_at(d), held[d], up, rows);
   }
+}
+
+double firmness_of_climb(std::span<const ContactRow> rows) noexcept {
+  const auto climbs = [](const ContactRow& row) { return row.kind == RowKind::climb; };
+  return std::any_of(rows.begin(), rows.end(), climbs) ? kFirmness : 0.0;
 }
 
 }  // namespace nade

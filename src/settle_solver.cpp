@@ -33,6 +33,7 @@ double stiffness_at(const ContactRow& row, double gap_m) {
   switch (row.kind) {
     case RowKind::draw_near:
       return gap_m > 0.0 && gap_m < kPullGrowth_m ? row.stiffness : 0.0;
+    case RowKind::climb:
     case RowKind::hold_back:
       return gap_m < 0.0 ? row.stiffness : 0.0;
     case RowKind::keep_out:
@@ -160,6 +161,7 @@ double force_at(const ContactRow& row, double gap_m) noexcept {
   switch (row.kind) {
     case RowKind::draw_near:
       return -row.stiffness * std::clamp(gap_m, 0.0, kPullGrowth_m);
+    case RowKind::climb:
     case RowKind::hold_back:
       return -row.stiffness * std::min(gap_m, 0.0);
     case RowKind::keep_out:

@@ -12,10 +12,10 @@
 namespace nade {
 
 /// A hand found anew has a row for every skin point; those for a corner's other sides are left out
-/// where they would be more. Then there are those that draw near, two for what is nearest, and what
-/// holds back the wrist and the digits.
+/// where they would be more. Then there are those that draw near, two for what is nearest, what
+/// holds back the wrist and the digits, and what digits climb.
 inline constexpr std::size_t kMostSkinRows = kMostSkinPoints;
-inline constexpr std::size_t kMostContactRows = kMostSkinRows + kPulls + 1 + 1 + kDigitCount;
+inline constexpr std::size_t kMostContactRows = kMostSkinRows + kPulls + 1 + 1 + 2 * kDigitCount;
 
 /// A patch of skin, drawn and tracked, against the surface near it.
 struct PatchTouch {

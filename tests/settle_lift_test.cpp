@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "nade/corrector.h"
+#include "nade/skeleton.h"
+#include "nade/surface_group.h"
 #include "support/hand_checks.h"
 #include "support/meshes.h"
 #include "support/pressed_hand.h"
@@ -12,18 +14,21 @@
 namespace nade {
 namespace {
 
+using test::block;
 using test::kFrame_ns;
+using test::lowest_skin;
 using test::pressed_hand;
+using test::settling;
 
 /// A thumb that hangs before the edge, lower than the palm, was left there when the hand went on,
 /// fingers first, and turned it by 37 to 40 degrees.
 TEST(SettleLift, AThumbBeforeAnEdgeComesOverIt) {
   constexpr int kDown = 60;
   constexpr int kWay = 170;
-  const auto surface = test::block({0.16F, 0.0125F, 0.07F});
+  const auto surface = block({0.16F, 0.0125F, 0.07F});
   const Object object(*surface);
   for (const double depth_m : {0.015, 0.025}) {
-    HandCorrector corrector(test::settling());
+    HandCorrector corrector(settling());
     double turned_rad = 0.0;
     for (int i = 0; i < kDown + 2 * kWay; ++i) {
       const double down = std::min(1.0, static_cast<double>(i) / kDown);
@@ -33,9 +38,74 @@ TEST(SettleLift, AThumbBeforeAnEdgeComesOverIt) {
       const HandPose drawn = corrector.update(tracked, object, i * kFrame_ns).pose;
       const Quat& wrist = drawn[Joint::wrist].rotation;
       turned_rad = std::max(turned_rad, wrist.angularDistance(tracked[Joint::wrist].rotation));
-      EXPECT_LT(-test::lowest_skin(drawn, object), 0.001);
+      EXPECT_LT(-lowest_skin(drawn, object), 0.001);
     }
     EXPECT_LT(turned_rad, 0.45) << depth_m << " m deep";
+  }
+}
+
+/// What became of a stroke along a table, fingers first.
+struct Stroke {
+  double flexed_rad = 0.0;  ///< a finger's knuckle, the most
+  double farthest_m = 0.0;  ///< a joint from the tracked one, the most
+  double last_m = 0.0;      ///< the same in the end
+  double deepest_m = 0.0;   ///< drawn skin below the surface, the most
+};
+
+/// 10 mm deep at 0.3 m/s, over a bar that is so high and 100 mm long.
+Stroke stroke_over_bar(float height_m) {
+  const PlaneSurface table;
+  const auto bar = block({0.6F, 0.5F * height_m, 0.05F});
+  const Pose there{{0.0, height_m, -0.25}, Quat::Identity()};
+  const SurfaceGroup group({Object(table), Object(*bar, {there, 1.0})});
+  const Object object(group);
+  HandCorrector corrector(settling());
+  Stroke stroke;
+  for (int i = 0; i < 300; ++i) {
+    const double depth_m = std::min(0.01, -0.05 + 0.0015 * i);
+    const double way_m = std::clamp((i - 60) / 300.0, 0.0, 0.7);
+    const HandPose tracked = pressed_hand(depth_m, 0.0, {0.0, 0.0, 0.1 - way_m});
+    const HandPose drawn = corrector.update(tracked, object, i * kFrame_ns).pose;
+    stroke.last_m = largest_motion(tracked, drawn);
+    stroke.farthest_m = std::max(stroke.farthest_m, stroke.last_m);
+    stroke.deepest_m = std::max(stroke.deepest_m, -lowest_skin(drawn, object));
+    const HandAngles angles = measure_angles(drawn);
+    for (std::size_t d = 1; d < kDigitCount; ++d) {
+      stroke.flexed_rad = std::max(stroke.flexed_rad, angles[d][0].flexion);
+    }
+  }
+  return stroke;
+}
+
+/// They folded under the hand, by 90 degrees, and stayed so.
+TEST(SettleLift, FingersGoOverALowBar) {
+  for (const float height_m : {0.005F, 0.01F, 0.02F, 0.03F}) {
+    SCOPED_TRACE(testing::Message() << "bar of " << height_m << " m");
+    const Stroke stroke = stroke_over_bar(height_m);
+    EXPECT_LT(stroke.flexed_rad, 45.0 * kDegree);
+    EXPECT_LT(stroke.farthest_m, 0.1);
+    EXPECT_LT(stroke.last_m, 0.08);
+    EXPECT_LT(stroke.deepest_m, 0.002);
+  }
+}
+
+/// Before a high one they cannot; once the hand is past it, they come back.
+TEST(SettleLift, AHandPastAHighBarIsWhole) { EXPECT_LT(stroke_over_bar(0.1F).last_m, 0.06); }
+
+/// Nor do they climb a wall that the hand rests before.
+TEST(SettleLift, FingersStayBeforeAWall) {
+  const PlaneSurface table;
+  const auto wall = block({0.6F, 0.2F, 0.05F});
+  const Pose there{{0.0, 0.4, -0.25}, Quat::Identity()};
+  const SurfaceGroup group({Object(table), Object(*wall, {there, 1.0})});
+  const Object object(group);
+  HandCorrector corrector(settling());
+  for (int i = 0; i < 300; ++i) {
+    const double way_m = std::min(0.001 * i, 0.12);
+    const HandPose tracked = pressed_hand(0.0, 0.0, {0.0, 0.0, 0.0 - way_m});
+    const HandPose drawn = corrector.update(tracked, object, i * kFrame_ns).pose;
+    EXPECT_LT(drawn[Joint::middle_tip].position.y(), 0.05) << "frame " << i;
+    EXPECT_GT(lowest_skin(drawn, object), -0.002) << "frame " << i;
   }
 }
 
