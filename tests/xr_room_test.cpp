@@ -41,6 +41,28 @@ TEST_F(RoomTest, EyesSeeTheRoomFromWhereTheyAre) {
   EXPECT_GT(lit, static_cast<std::size_t>(kWidth * kHeight / 2));
 }
 
+class LivingRoomTest : public RoomTest {
+ protected:
+  void furnish(RoomSetup& setup) override { setup.objects = {"sphere", "dog:alive"}; }
+};
+
+TEST_F(LivingRoomTest, ALivingObjectMovesFromTheFirstFrameThatShowsItOn) {
+  room_->update(frame_at(bind_, 0));
+  EXPECT_FALSE(room_->animation_start_ns()) << "the ball does not move";
+  Show show = chooser_.show();
+  show.object = "dog:alive";
+  room_->set(show);
+  Result<LoadedObject> dog = load_object("dog:alive");
+  ASSERT_TRUE(dog.ok());
+  for (const int index : {10, 50, 120}) {
+    const TrackedFrame frame = frame_at(bind_, index);
+    room_->update(frame);
+    EXPECT_EQ(room_->animation_start_ns(), frame_at(bind_, 10).time_ns);
+    dog->move_to(1e-9 * static_cast<double>(frame.time_ns - *room_->animation_start_ns()));
+    EXPECT_TRUE(room_->object()->soup->vertices == dog->soup->vertices) << index;
+  }
+}
+
 TEST(Chooser, ButtonsChooseAndMove) {
   Chooser chooser({{"sphere", "plane", "a/bunny.obj"}});
   EXPECT_TRUE(chooser.changed());
@@ -66,6 +88,18 @@ TEST(Chooser, ButtonsChooseAndMove) {
   press("leave");
   EXPECT_TRUE(chooser.take_wishes().leave);
   EXPECT_FALSE(chooser.take_wishes().leave);
+}
+
+TEST(MotionFiles, HeadersSayWhenTheAnimationBegan) {
+  RecordedAs as;
+  as.object = "dog:alive";
+  as.animation_start_ns = -20'000'000;
+  const study::MotionFiles files = motion_files("nowhere/a.jsonl", as);
+  for (const RecordingHeader* header : {&files.tracked_header, &files.corrected_header}) {
+    const auto placing = placing_from(header->unknown_json, "a.jsonl");
+    ASSERT_TRUE(placing.ok() && *placing);
+    EXPECT_EQ((*placing)->animation_start_ns, -20'000'000);
+  }
 }
 
 TEST(MotionFiles, NamesBesideTheGivenOne) {

@@ -264,8 +264,15 @@ void Loop::tell_guide(const TrackedFrame& frame) {
 }
 
 void Loop::record() {
-  // A recording starts at time 0.
-  if (!recorded_from_ns_) recorded_from_ns_ = moment_.motion.time_ns;
+  if (!recorded_from_ns_) {
+    // A recording starts at time 0.
+    recorded_from_ns_ = moment_.motion.time_ns;
+    RecordedAs as = *recorded_as_;
+    if (const auto start_ns = room_->animation_start_ns()) {
+      as.animation_start_ns = *start_ns - *recorded_from_ns_;
+    }
+    recorder_->begin(motion_files(numbered_path(*run_.record, ++recordings_), as));
+  }
   recorded_ = moment_.motion;
   recorded_.time_ns -= *recorded_from_ns_;
   recorder_->push(recorded_);
@@ -278,19 +285,19 @@ void Loop::change_recording() {
   as.method = name_of(room_->show().method);
   as.headset = headset_name_;
   if (recorded_as_ == as) return;
-  if (recorded_as_) recorder_->end();
+  if (recorded_from_ns_) recorder_->end();
   recorded_as_.reset();
   recorded_from_ns_.reset();
   if (as.object.empty()) return;
   if (!recorder_) recorder_ = std::make_unique<study::MotionRecorder>();
-  recorder_->begin(motion_files(numbered_path(*run_.record, ++recordings_), as));
   recorded_as_ = as;
 }
 
 Status Loop::finish_recording() {
   if (!recorder_) return ok_status();
-  if (recorded_as_) recorder_->end();
+  if (recorded_from_ns_) recorder_->end();
   recorded_as_.reset();
+  recorded_from_ns_.reset();
   recorder_->drain();
   if (const auto failure = recorder_->take_failure()) return *failure;
   if (const std::size_t dropped = recorder_->dropped(); dropped > 0) {

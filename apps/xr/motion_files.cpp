@@ -46,7 +46,8 @@ study::MotionFiles motion_files(const std::string& path, const RecordedAs& as) {
   files.tracked_header.source = "openxr";
   files.tracked_header.created = now_as_text();
   files.tracked_header.hand_scale_known = true;
-  auto json = nlohmann::ordered_json::parse(with_placing({}, {as.object, as.placement}));
+  auto json = nlohmann::ordered_json::parse(
+      with_placing({}, {as.object, as.placement, as.animation_start_ns}));
   json["headset"] = as.headset;
   json["tool"] = fmt::format("nade {}", NADE_VERSION);
   files.tracked_header.unknown_json = json.dump();

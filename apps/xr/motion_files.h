@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include "nade/study/motion_recorder.h"
@@ -10,6 +12,8 @@ namespace nade::xr {
 struct RecordedAs {
   std::string object;
   Placement placement;
+  /// The recording's time at which the animation of an object that moves by itself began.
+  std::optional<std::int64_t> animation_start_ns;
   std::string method;
   std::string headset;
   friend bool operator==(const RecordedAs& a, const RecordedAs& b) {

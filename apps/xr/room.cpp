@@ -146,6 +146,11 @@ const LoadedObject* Room::object() const {
   return scenery_ == nullptr ? nullptr : &scenery_->object;
 }
 
+std::optional<std::int64_t> Room::animation_start_ns() const {
+  const bool moves = scenery_ != nullptr && scenery_->object.animation;
+  return moves ? object_since_ns_ : std::nullopt;
+}
+
 void Room::set(const Show& show) {
   const bool other_object = show.object != show_.object || scenery_ == nullptr;
   const bool other_method = show.method != show_.method;
@@ -154,6 +159,7 @@ void Room::set(const Show& show) {
   if (other_object) {
     const auto found = sceneries_.find(show_.object);
     scenery_ = found == sceneries_.end() ? nullptr : &found->second;
+    object_since_ns_.reset();
   }
   if (other_method) {
     setup_.corrector.method = show_.method;
@@ -208,6 +214,12 @@ Pose Room::panel_pose() const {
   const Pose local{before ? kPanelBefore : kPanelBeside,
                    turn * about(Vec3::UnitX(), kPanelTilt_rad)};
   return spot_ * local;
+}
+
+void Room::animate(const TrackedFrame& frame) {
+  if (scenery_ == nullptr) return;
+  if (!object_since_ns_) object_since_ns_ = frame.time_ns;
+  scenery_->object.move_to(1e-9 * static_cast<double>(frame.time_ns - *object_since_ns_));
 }
 
 void Room::correct(const TrackedFrame& frame) {
@@ -297,6 +309,7 @@ void Room::arrange(const TrackedFrame& frame) {
 void Room::update(const TrackedFrame& frame) {
   find_spot(frame);
   const double start = thread_seconds();
+  animate(frame);
   correct(frame);
   const double corrected = thread_seconds();
   touch(frame);

@@ -40,7 +40,7 @@ struct Show {
 
 /// Processor time of our own part of a frame, seconds, of the thread that makes it.
 struct FrameCost {
-  double correct_s = 0.0;  ///< both hands
+  double correct_s = 0.0;  ///< both hands, and moving the object
   double pose_s = 0.0;     ///< the skins, and putting the scene together
   double submit_s = 0.0;   ///< the drawing calls for both eyes
 };
@@ -86,6 +86,9 @@ class Room {
   /// Where the object stands against the spot.
   [[nodiscard]] Placement placement() const;
   [[nodiscard]] const LoadedObject* object() const;
+  /// When the animation of the object began, in the frames' time: at the first frame that showed
+  /// the object. No value where it does not move by itself.
+  [[nodiscard]] std::optional<std::int64_t> animation_start_ns() const;
   [[nodiscard]] const draw::HandMeshes& meshes() const { return setup_.hands; }
   [[nodiscard]] Pose panel_pose() const;
   [[nodiscard]] const PanelPicture& panel() const { return panel_; }
@@ -107,6 +110,7 @@ class Room {
   void paint_panel();
   void find_spot(const TrackedFrame& frame);
   [[nodiscard]] Placement object_placement() const;
+  void animate(const TrackedFrame& frame);
   void correct(const TrackedFrame& frame);
   void touch(const TrackedFrame& frame);
   void arrange(const TrackedFrame& frame);
@@ -117,7 +121,8 @@ class Room {
   draw::Renderer renderer_;
   std::map<std::string, Scenery> sceneries_;
   Scenery* scenery_ = nullptr;
-  std::optional<draw::Stage> bare_;  ///< hands without an object
+  std::optional<std::int64_t> object_since_ns_;  ///< the first frame that showed it
+  std::optional<draw::Stage> bare_;              ///< hands without an object
   Show show_;
   bool centred_ = false;
   Pose spot_;

@@ -52,6 +52,7 @@ class RoomTest : public testing::Test {
       setup.hands[index_of(side)] = std::move(mesh).value();
     }
     setup.objects = {"sphere", "plane"};
+    furnish(setup);
     left_bind_ = setup.hands[index_of(Handedness::left)].bind;
     bind_ = setup.hands[index_of(Handedness::right)].bind;
     Result<std::unique_ptr<Room>> room = Room::create(std::move(setup));
@@ -60,6 +61,8 @@ class RoomTest : public testing::Test {
     room_->set(chooser_.show());
   }
   void TearDown() override { room_.reset(); }
+  /// What a test wants otherwise.
+  virtual void furnish(RoomSetup& /*setup*/) {}
 
   std::optional<draw::OffscreenContext> context_;
   HandPose left_bind_;
