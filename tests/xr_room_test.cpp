@@ -1,6 +1,8 @@
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "motion_files.h"
 #include "support/allocation_counter.h"
 #include "xr/room_fixture.h"
@@ -63,6 +65,47 @@ TEST_F(LivingRoomTest, ALivingObjectMovesFromTheFirstFrameThatShowsItOn) {
   }
 }
 
+class SoftRoomTest : public RoomTest {
+ protected:
+  static constexpr double kSoftness_m = 0.012;
+  void furnish(RoomSetup& setup) override { setup.corrector.settle.softness_m = kSoftness_m; }
+
+  /// The room's last frame as a stage has it, without the panel.
+  draw::Image staged(const TrackedFrame& frame, double softness_m) {
+    Result<draw::Renderer> renderer = draw::Renderer::create();
+    Result<draw::Stage> stage = draw::Stage::create(*renderer, room_->meshes());
+    const Placement spot{room_->object_spot(), 1.0};
+    EXPECT_TRUE(stage->set_object(*room_->object(), composed(spot, room_->placement())).ok());
+    draw::StageFrame shown;
+    const auto& hand = room_->hands()[index_of(Handedness::right)];
+    shown.hands[index_of(Handedness::right)] = {hand->tracked, hand->corrected.pose, {}, {}};
+    shown.softness_m = softness_m;
+    draw::Scene scene = stage->arrange(shown);
+    scene.floor_y = frame.floor_y;
+    return renderer->picture(scene, frame.eyes[0], kWidth, kHeight);
+  }
+};
+
+TEST_F(SoftRoomTest, ASoftObjectGivesWayToTheHand) {
+  Show show = chooser_.show();
+  show.has_panel = false;
+  room_->set(show);
+  TrackedFrame frame = frame_at(bind_, 0);
+  HandPose& hand = *frame.hands[index_of(Handedness::right)];
+  hand = moved(hand, Pose{Vec3(0.0, -0.02, 0.0), Quat::Identity()});
+  frame.floor_y = 1.07;  // under the ball: no stand is seen
+  // From beside, where the hand does not hide it.
+  frame.eyes[0].pose.position = Vec3(0.25, 1.16, -0.40);
+  frame.eyes[0].pose.rotation = Quat(Eigen::AngleAxisd(1.5707963, Vec3::UnitY()));
+  for (int i = 0; i < 60; ++i) {
+    frame.time_ns += 11'111'111;
+    room_->update(frame);
+  }
+  const draw::Image picture = room_->picture(frame.eyes[0], kWidth, kHeight);
+  EXPECT_TRUE(picture.rgba == staged(frame, kSoftness_m).rgba);
+  EXPECT_FALSE(picture.rgba == staged(frame, 0.0).rgba);
+}
+
 TEST(Chooser, ButtonsChooseAndMove) {
   Chooser chooser({{"sphere", "plane", "a/bunny.obj"}});
   EXPECT_TRUE(chooser.changed());
@@ -100,6 +143,20 @@ TEST(MotionFiles, HeadersSayWhenTheAnimationBegan) {
     ASSERT_TRUE(placing.ok() && *placing);
     EXPECT_EQ((*placing)->animation_start_ns, -20'000'000);
   }
+}
+
+TEST(MotionFiles, CorrectedHeaderSaysHowSoftAndRough) {
+  RecordedAs as;
+  as.object = "sphere";
+  as.settle.softness_m = 0.004;
+  as.settle.friction.coefficient = 0.5;
+  const study::MotionFiles files = motion_files("nowhere/a.jsonl", as);
+  const auto header = nlohmann::json::parse(files.corrected_header.unknown_json);
+  EXPECT_EQ(header.value("softness", 0.0), 0.004);
+  EXPECT_EQ(header.value("friction", 0.0), 0.5);
+  as.method = Method::paper;
+  const std::string paper = motion_files("nowhere/a.jsonl", as).corrected_header.unknown_json;
+  EXPECT_FALSE(nlohmann::json::parse(paper).contains("softness")) << "which it knows nothing of";
 }
 
 TEST(MotionFiles, NamesBesideTheGivenOne) {

@@ -282,7 +282,8 @@ void Loop::change_recording() {
   RecordedAs as;
   as.object = room_->show().object;
   as.placement = room_->placement();
-  as.method = name_of(room_->show().method);
+  as.method = room_->show().method;
+  as.settle = room_->corrector().settle;
   as.headset = headset_name_;
   if (recorded_as_ == as) return;
   if (recorded_from_ns_) recorder_->end();

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "nade/corrector.h"
 #include "nade/study/motion_recorder.h"
 
 namespace nade::xr {
@@ -14,7 +15,8 @@ struct RecordedAs {
   Placement placement;
   /// The recording's time at which the animation of an object that moves by itself began.
   std::optional<std::int64_t> animation_start_ns;
-  std::string method;
+  Method method = Method::nade;
+  SettleOptions settle;  ///< of method nade
   std::string headset;
   friend bool operator==(const RecordedAs& a, const RecordedAs& b) {
     return a.object == b.object && a.method == b.method;

@@ -138,6 +138,7 @@ Status Room::load(const std::string& spec) {
     frame.hands[side] = {setup_.hands[side].bind, setup_.hands[side].bind, {}, {}};
   }
   frame.shown = draw::Shown::both;
+  frame.softness_m = setup_.corrector.settle.softness_m;
   static_cast<void>(scenery.stage->arrange(frame));
   return ok_status();
 }
@@ -216,6 +217,11 @@ Pose Room::panel_pose() const {
   return spot_ * local;
 }
 
+/// Of the object as it is drawn: the other methods know nothing of it.
+double Room::softness_m() const {
+  return show_.method == Method::nade ? setup_.corrector.settle.softness_m : 0.0;
+}
+
 void Room::animate(const TrackedFrame& frame) {
   if (scenery_ == nullptr) return;
   if (!object_since_ns_) object_since_ns_ = frame.time_ns;
@@ -279,6 +285,7 @@ void Room::add_stand(double floor_y) {
 void Room::arrange(const TrackedFrame& frame) {
   draw::StageFrame staged;
   staged.shown = show_.shown;
+  staged.softness_m = softness_m();
   for (std::size_t side = 0; side < 2; ++side) {
     if (!hands_[side]) continue;
     staged.hands[side].emplace();

@@ -90,6 +90,7 @@ class Room {
   /// the object. No value where it does not move by itself.
   [[nodiscard]] std::optional<std::int64_t> animation_start_ns() const;
   [[nodiscard]] const draw::HandMeshes& meshes() const { return setup_.hands; }
+  [[nodiscard]] const CorrectorOptions& corrector() const { return setup_.corrector; }
   [[nodiscard]] Pose panel_pose() const;
   [[nodiscard]] const PanelPicture& panel() const { return panel_; }
   /// Grows with every panel that is another than the last.
@@ -110,6 +111,7 @@ class Room {
   void paint_panel();
   void find_spot(const TrackedFrame& frame);
   [[nodiscard]] Placement object_placement() const;
+  [[nodiscard]] double softness_m() const;
   void animate(const TrackedFrame& frame);
   void correct(const TrackedFrame& frame);
   void touch(const TrackedFrame& frame);
