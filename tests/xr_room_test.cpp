@@ -1,10 +1,12 @@
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "motion_files.h"
 #include "support/allocation_counter.h"
+#include "support/scratch_folder.h"
 #include "xr/room_fixture.h"
 
 namespace nade::xr {
@@ -164,6 +166,15 @@ TEST(MotionFiles, NamesBesideTheGivenOne) {
   EXPECT_EQ(corrected_path("stroke"), "stroke-corrected");
   EXPECT_EQ(numbered_path("stroke.jsonl", 1), "stroke.jsonl");
   EXPECT_EQ(numbered_path("stroke.jsonl", 2), "stroke-2.jsonl");
+}
+
+class MotionFilesOnDisk : public test::FolderTest {};
+
+TEST_F(MotionFilesOnDisk, NextPairTakesNamesThatAreFree) {
+  std::ofstream(path("a-2.jsonl")) << "dear to somebody";
+  std::ofstream(path("a-3-corrected.jsonl")) << "this, too";
+  EXPECT_EQ(next_number(path("a.jsonl"), 1), 4);
+  EXPECT_EQ(next_number(path("a.jsonl"), 4), 5);
 }
 
 }  // namespace

@@ -22,18 +22,22 @@ draw::Image read_back(const draw::Target& target) {
   return image;
 }
 
-Status save_eyes(const std::string& path, const std::array<std::optional<draw::Image>, 2>& eyes) {
+std::array<std::string, 2> eye_paths(const std::string& path) {
   constexpr std::string_view kEnding = ".png";
   const bool has_ending = path.size() > kEnding.size() &&
                           std::string_view(path).substr(path.size() - kEnding.size()) == kEnding;
   const std::string stem = has_ending ? path.substr(0, path.size() - kEnding.size()) : path;
+  return {stem + "-left" + std::string(kEnding), stem + "-right" + std::string(kEnding)};
+}
+
+Status save_eyes(const std::string& path, const std::array<std::optional<draw::Image>, 2>& eyes) {
+  const std::array<std::string, 2> names = eye_paths(path);
   for (std::size_t eye = 0; eye < 2; ++eye) {
     if (!eyes[eye]) {
       return Error{ErrorCode::unwritable,
                    fmt::format("{}: no picture of the eyes was drawn in the last frame", path)};
     }
-    const std::string name = stem + (eye == 0 ? "-left" : "-right") + std::string(kEnding);
-    if (Status saved = draw::save_png(name, *eyes[eye]); !saved) return saved;
+    if (Status saved = draw::save_png(names[eye], *eyes[eye]); !saved) return saved;
   }
   return ok_status();
 }

@@ -16,6 +16,7 @@
 #include "headset_session.h"
 #include "mirror.h"
 #include "motion_files.h"
+#include "nade/io/output_file.h"
 #include "panel_log.h"
 
 namespace nade::xr {
@@ -77,7 +78,9 @@ class Loop {
   void tell_guide(const TrackedFrame& frame);
   void record();
   void change_recording();
+  void watch_recorder();
   Status finish_recording();
+  Status open_outputs();
   [[nodiscard]] bool wants_out() const;
 
   const HeadsetRun& run_;
@@ -86,7 +89,8 @@ class Loop {
   std::unique_ptr<Room> room_;
   MirrorFeed* mirror_ = nullptr;
   std::unique_ptr<study::MotionRecorder> recorder_;
-  int recordings_ = 0;
+  int recording_ = 0;  ///< the last one's number
+  std::optional<Error> record_failure_;
   std::optional<PanelLog> panel_log_;
   std::optional<RecordedAs> recorded_as_;  ///< while a recording goes on
   std::string headset_name_;
@@ -106,7 +110,6 @@ bool Loop::wants_out() const {
 }
 
 Status Loop::begin(RoomSetup setup, const Headset& headset) {
-  if (run_.panel_log) panel_log_.emplace(*run_.panel_log);
   Result<std::unique_ptr<GraphicsBinding>> binding = bind(headset.graphics());
   if (!binding) return binding.error();
   binding_ = std::move(binding).value();
@@ -131,8 +134,27 @@ Result<Headset> Loop::find_again() {
   }
 }
 
+/// Whether all that the run is to write can be written, while nobody wears the headset yet.
+Status Loop::open_outputs() {
+  if (run_.record) {
+    if (const Status can = check_recordable(*run_.record); !can) return can;
+  }
+  if (run_.screenshot) {
+    for (const std::string& eye : eye_paths(*run_.screenshot)) {
+      const auto opened = OutputFile::create(eye, OutputFile::Encoding::plain);
+      if (!opened) return opened.error();
+    }
+  }
+  if (!run_.panel_log) return ok_status();
+  Result<PanelLog> log = PanelLog::create(*run_.panel_log);
+  if (!log) return log.error();
+  panel_log_.emplace(std::move(log).value());
+  return ok_status();
+}
+
 Status Loop::go(RoomSetup setup_once) {
   const Interruptible interruptible;
+  if (const Status opened = open_outputs(); !opened) return opened;
   std::optional<RoomSetup> setup = std::move(setup_once);
   while (true) {
     Result<Headset> headset = setup ? find_headset() : find_again();
@@ -258,7 +280,13 @@ void Loop::tell_guide(const TrackedFrame& frame) {
   moment_.object = room_->placement();
   moment_.correction_us = costs_.last_correction_us();
   if (recorded_as_) record();
-  if (panel_log_) panel_log_->note(*room_);
+  watch_recorder();
+  if (panel_log_) {
+    if (const Status noted = panel_log_->note(*room_); !noted) {
+      say(noted.error().message);
+      panel_log_.reset();
+    }
+  }
   guide_.seen(moment_);
   obey(guide_.take_wishes());
 }
@@ -271,7 +299,8 @@ void Loop::record() {
     if (const auto start_ns = room_->animation_start_ns()) {
       as.animation_start_ns = *start_ns - *recorded_from_ns_;
     }
-    recorder_->begin(motion_files(numbered_path(*run_.record, ++recordings_), as));
+    recording_ = recording_ == 0 ? 1 : next_number(*run_.record, recording_);
+    recorder_->begin(motion_files(numbered_path(*run_.record, recording_), as));
   }
   recorded_ = moment_.motion;
   recorded_.time_ns -= *recorded_from_ns_;
@@ -294,12 +323,21 @@ void Loop::change_recording() {
   recorded_as_ = as;
 }
 
+void Loop::watch_recorder() {
+  if (!recorder_) return;
+  const auto failure = recorder_->take_failure();
+  if (!failure) return;
+  say(failure->message);
+  if (!record_failure_) record_failure_ = *failure;
+}
+
 Status Loop::finish_recording() {
   if (!recorder_) return ok_status();
   if (recorded_from_ns_) recorder_->end();
   recorded_as_.reset();
   recorded_from_ns_.reset();
   recorder_->drain();
+  if (record_failure_) return *record_failure_;
   if (const auto failure = recorder_->take_failure()) return *failure;
   if (const std::size_t dropped = recorder_->dropped(); dropped > 0) {
     return Error{ErrorCode::unwritable,

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "nade/io/object_file.h"
+#include "nade/io/output_file.h"
 
 namespace nade::xr {
 namespace {
@@ -29,6 +30,11 @@ std::string with_word(const std::string& path, const std::string& word) {
     }
   }
   return path + word;
+}
+
+bool is_there(const std::string& path) {
+  std::error_code none;
+  return std::filesystem::exists(std::filesystem::symlink_status(path, none));
 }
 
 }  // namespace
@@ -61,8 +67,33 @@ study::MotionFiles motion_files(const std::string& path, const RecordedAs& as) {
   files.corrected_header.unknown_json = json.dump();
   std::error_code ignored;  // what cannot be taken away is told when it is written
   std::filesystem::remove(files.tracked_path, ignored);
-  std::filesystem::remove(files.corrected_path, ignored);
   return files;
+}
+
+Status check_recordable(const std::string& path) {
+  std::error_code none;
+  if (path == "-" || std::filesystem::is_other(path, none)) {
+    return Error{ErrorCode::out_of_range,
+                 fmt::format("--record: expected the name of a file, found {}", path)};
+  }
+  const std::string beside = corrected_path(path);
+  if (is_there(beside)) {
+    return Error{
+        ErrorCode::unwritable,
+        fmt::format("{}: the corrected hands of --record {} would replace it: move it away, "
+                    "or record elsewhere",
+                    beside, path)};
+  }
+  const auto opened = OutputFile::create(path, OutputFile::Encoding::plain);
+  return opened ? ok_status() : Status(opened.error());
+}
+
+int next_number(const std::string& path, int number) {
+  do {
+    ++number;
+  } while (is_there(numbered_path(path, number)) ||
+           is_there(corrected_path(numbered_path(path, number))));
+  return number;
 }
 
 }  // namespace nade::xr

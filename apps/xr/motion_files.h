@@ -24,11 +24,16 @@ struct RecordedAs {
 };
 
 /// The recording of the tracked hands at `path`, of the corrected hands at `corrected_path(path)`.
-/// Takes away what is there by those names.
+/// Takes away a tracked recording that is there.
 [[nodiscard]] study::MotionFiles motion_files(const std::string& path, const RecordedAs& as);
 
 /// "stroke.jsonl.gz" gives "stroke-corrected.jsonl.gz".
 [[nodiscard]] std::string corrected_path(const std::string& path);
+/// Whether a run can record at `path`: a file that is there is replaced, one at
+/// `corrected_path(path)`, which nobody has named, is not. The error names the file.
+[[nodiscard]] Status check_recordable(const std::string& path);
+/// The first number above `number` whose files are not there.
+[[nodiscard]] int next_number(const std::string& path, int number);
 /// "stroke.jsonl" and 2 give "stroke-2.jsonl"; 1 gives it as it is.
 [[nodiscard]] std::string numbered_path(const std::string& path, int number);
 

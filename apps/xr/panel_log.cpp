@@ -1,15 +1,32 @@
 #include "panel_log.h"
 
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 namespace nade::xr {
 
-PanelLog::PanelLog(const std::string& path) : file_(std::fopen(path.c_str(), "w")) {}
+namespace {
 
-void PanelLog::note(const Room& room) {
+Error unwritable(const std::string& path) {
+  return {ErrorCode::unwritable,
+          fmt::format("{}: expected to write the panel log, but: {}", path, std::strerror(errno))};
+}
+
+}  // namespace
+
+Result<PanelLog> PanelLog::create(const std::string& path) {
+  File file(std::fopen(path.c_str(), "w"));
+  if (!file) return unwritable(path);
+  return PanelLog(path, std::move(file));
+}
+
+Status PanelLog::note(const Room& room) {
   const Pose pose = room.panel_pose();
   const bool moved = !place_ || (*place_ - pose.position).norm() > 1e-4;
-  if (!file_ || (!moved && revision_ == room.panel_revision())) return;
+  if (!moved && revision_ == room.panel_revision()) return ok_status();
   revision_ = room.panel_revision();
   place_ = pose.position;
   nlohmann::ordered_json line;
@@ -31,7 +48,7 @@ void PanelLog::note(const Room& room) {
     }
   }
   std::fprintf(file_.get(), "%s\n", line.dump().c_str());
-  static_cast<void>(std::fflush(file_.get()));
+  return std::fflush(file_.get()) == 0 ? ok_status() : Status(unwritable(path_));
 }
 
 }  // namespace nade::xr
