@@ -20,8 +20,10 @@ constexpr double kStep_s = 1.0 / 60.0;
 /// Recordings in a folder of its own.
 class RecordedTest : public test::FolderTest {
  protected:
-  /// A stroke of the object, which the header names; its frames are returned, too.
-  std::vector<RecordedFrame> make_stroke(const std::string& name, const std::string& spec) const {
+  /// A stroke of the object, which the header names, by a hand `size` times the generic one; its
+  /// frames are returned, too.
+  std::vector<RecordedFrame> make_stroke(const std::string& name, const std::string& spec,
+                                         double size = 1.0) const {
     const Result<LoadedObject> object = load_object(spec);
     SynthOptions options;
     options.duration_s = 1.0;
@@ -29,6 +31,9 @@ class RecordedTest : public test::FolderTest {
     Result<RecordingWriter> writer = RecordingWriter::create(path(name), synth->header());
     std::vector<RecordedFrame> frames;
     while (std::optional<RecordedFrame> frame = synth->next()) {
+      HandPose& hand = frame->hands[1]->pose;
+      const Vec3 palm = hand[Joint::palm].position;
+      for (Pose& joint : hand.joints) joint.position = palm + size * (joint.position - palm);
       EXPECT_TRUE(writer->write(*frame).ok());
       frames.push_back(*frame);
     }
@@ -264,6 +269,23 @@ TEST_F(RecordedTest, MouseHandIsBackWhenTheRecordingIsPutAway) {
   for (int i = 0; i < 30; ++i) session.advance(kStep_s, {});
   ASSERT_TRUE(session.hands()[1]);
   EXPECT_GT(session.figures().of(Figure::penetration).values().size(), 20U);
+}
+
+TEST_F(RecordedTest, MouseHandIsNoChildsAfterAChildsRecording) {
+  make_stroke("a.jsonl", "plane", 0.6);
+  Session session(session_setup());
+  ASSERT_TRUE(session.show_object("plane").ok());
+  session.advance(kStep_s, {});
+  ASSERT_TRUE(session.hands()[1]);
+  const double own_scale = session.hands()[1]->scale.value_or(0.0);
+  ASSERT_TRUE(session.open_clip(path("a.jsonl")).ok());
+  begin(session);
+  ASSERT_TRUE(session.hands()[1]);
+  EXPECT_NEAR(session.hands()[1]->scale.value_or(0.0), 0.6 * own_scale, 1e-3);
+  session.close_clip();
+  session.advance(kStep_s, {});
+  ASSERT_TRUE(session.hands()[1]);
+  EXPECT_EQ(session.hands()[1]->scale, own_scale);
 }
 
 TEST(Script, SaysWhatHappensInWhichFrame) {

@@ -85,6 +85,7 @@ void Session::close_clip() {
   clip_begun_ = false;
   press_m_.reset();
   hands_ = {};
+  scales_ = {};
   put_mouse_hand();
   restart();
 }
