@@ -163,6 +163,22 @@ TEST_F(RecordedTest, SeeksStepsAndLoops) {
   EXPECT_EQ(session.playback().index, 0U) << "a tenth of a frame";
 }
 
+TEST_F(RecordedTest, PlaysAnewFromTheEnd) {
+  make_stroke("a.jsonl", "plane");
+  Session session(session_setup());
+  ASSERT_TRUE(session.show_object("plane").ok());
+  ASSERT_TRUE(session.open_clip(path("a.jsonl")).ok());
+  begin(session);
+  session.playback().loop = false;
+  while (session.playback().playing) session.advance(kStep_s, {});
+  session.play_or_pause();
+  session.advance(kStep_s, {});
+  EXPECT_TRUE(session.playback().playing);
+  EXPECT_LT(session.playback().index, 5U);
+  session.play_or_pause();
+  EXPECT_FALSE(session.playback().playing);
+}
+
 TEST_F(RecordedTest, MethodsShowInTheFigures) {
   make_stroke("a.jsonl", "plane");
   Session session(session_setup());

@@ -64,7 +64,7 @@ void take_clip_key(Session& session, Key key) {
   Playback& playback = session.playback();
   switch (key) {
     case Key::space:
-      playback.playing = !playback.playing;
+      session.play_or_pause();
       break;
     case Key::left:
       session.step(-1);

@@ -56,7 +56,7 @@ void timeline(UiKit& ui, Session& session) {
   }
   if (ui.button("play", playback.playing ? "||" : "▶", Lit::no, kButton,
                 "Plays or pauses  (space)")) {
-    playback.playing = !playback.playing;
+    session.play_or_pause();
   }
   ImGui::SameLine();
   if (ui.button("step:back", "◀|", Lit::no, kButton, "One frame back  (left)")) session.step(-1);

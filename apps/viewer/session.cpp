@@ -202,6 +202,12 @@ void Session::seek(std::size_t index) {
   playback_.time_s = 1e-9 * static_cast<double>(time_ns);
 }
 
+void Session::play_or_pause() {
+  if (!clip_begun_) return;
+  if (!playback_.playing && playback_.index + 1 == clip_->size()) seek(0);
+  playback_.playing = !playback_.playing;
+}
+
 void Session::step(int frames) {
   if (!clip_begun_) return;
   playback_.playing = false;

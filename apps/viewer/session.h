@@ -76,6 +76,8 @@ class Session {
 
   void seek(std::size_t index);
   void step(int frames);
+  /// From the end it plays from the start.
+  void play_or_pause();
   [[nodiscard]] Playback& playback() { return playback_; }
   /// The recording that is shown; null where the mouse moves the hand.
   [[nodiscard]] const Clip* clip() const { return clip_ ? &*clip_ : nullptr; }
