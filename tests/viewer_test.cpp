@@ -241,14 +241,35 @@ TEST_F(RecordedTest, RecordingWithoutFramesGivesWayToTheOneBefore) {
   begin(session);
   EXPECT_EQ(session.clip(), nullptr) << "there was none: the mouse's hand";
   ASSERT_EQ(session.take_notices().size(), 1U);
+}
+
+TEST_F(RecordedTest, ABrokenRecordingLeavesTheOneBeforeWhereItWas) {
+  make_stroke("a.jsonl", "plane");
+  make_stroke("bad.jsonl", "sphere");
+  std::ofstream(path("bad.jsonl"), std::ios::app) << "{\"t\":99999999999,\"right\":7}\n";
+  std::ofstream(path("empty.jsonl")) << "{\"format\":\"nade-recording\",\"version\":1}\n";
+  Session session(session_setup());
+  ASSERT_TRUE(session.show_object("plane").ok());
   ASSERT_TRUE(session.open_any(path("a.jsonl")).ok());
   begin(session);
-  ASSERT_TRUE(session.open_any(path("empty.jsonl")).ok());
-  begin(session);
-  ASSERT_NE(session.clip(), nullptr);
-  EXPECT_EQ(session.clip()->path(), path("a.jsonl"));
-  session.advance(kStep_s, {});
-  EXPECT_TRUE(session.hands()[1]);
+  session.step(30);
+  const Vec3 drawn = session.hands()[1]->corrected[Joint::palm].position;
+  const std::size_t measured = session.figures().of(Figure::penetration).values().size();
+  for (const char* const name : {"empty.jsonl", "bad.jsonl"}) {
+    ASSERT_TRUE(session.open_any(path(name)).ok());
+    begin(session);
+    const std::vector<std::string> notices = session.take_notices();
+    ASSERT_EQ(notices.size(), 1U);
+    EXPECT_NE(notices[0].find(name), std::string::npos) << notices[0];
+    ASSERT_NE(session.clip(), nullptr);
+    EXPECT_EQ(session.clip()->path(), path("a.jsonl"));
+    EXPECT_EQ(session.loaded().spec, "plane");
+    EXPECT_EQ(session.playback().index, 30U);
+    EXPECT_FALSE(session.playback().playing);
+    ASSERT_TRUE(session.hands()[1]);
+    EXPECT_EQ(session.hands()[1]->corrected[Joint::palm].position, drawn);
+    EXPECT_EQ(session.figures().of(Figure::penetration).values().size(), measured);
+  }
 }
 
 TEST_F(RecordedTest, ADroppedFileIsWhatItsContentSays) {

@@ -62,11 +62,6 @@ Status Session::open_clip(const std::string& path) {
   if (clip_begun_) clip_before_ = std::move(clip_);
   clip_.emplace(std::move(opened).value());
   clip_begun_ = false;
-  hands_ = {};
-  playback_.time_s = 0.0;
-  playback_.index = 0;
-  playback_.playing = true;
-  restart();
   return ok_status();
 }
 
@@ -145,22 +140,24 @@ Status Session::stand_under_clip() {
 }
 
 void Session::begin_clip() {
-  if (const auto failure = clip_->failure()) notices_.push_back(failure->message);
   for (const std::string& warning : clip_->warnings()) notices_.push_back(warning);
-  if (clip_->size() == 0) {
-    notices_.push_back(fmt::format("{}: expected frames with hands, found none", clip_->path()));
+  const auto failure = clip_->failure();
+  if (failure || clip_->size() == 0) {
+    notices_.push_back(
+        failure ? failure->message
+                : fmt::format("{}: expected frames with hands, found none", clip_->path()));
     clip_ = std::exchange(clip_before_, std::nullopt);
     clip_begun_ = clip_.has_value();
-    if (clip_begun_) {
-      restart();
-    } else {
-      close_clip();
-    }
     return;
   }
   clip_before_.reset();
   clip_begun_ = true;
-  for (std::size_t side = 0; side < 2; ++side) scales_[side].reset();
+  ++clips_begun_;
+  hands_ = {};
+  scales_ = {};
+  playback_.time_s = 0.0;
+  playback_.index = 0;
+  playback_.playing = true;
   const Status stands = stand_as_recorded();
   if (!stands) notices_.push_back(stands.error().message);
   keep_ = Keep::no;

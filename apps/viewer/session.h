@@ -55,8 +55,9 @@ class Session {
   /// that the palms are pressed into it. After an error everything is as before.
   [[nodiscard]] Status show_object(const std::string& spec,
                                    const std::optional<Placement>& placement = {});
-  /// Changes to another recording, with the object it was made on where it names one. After an
-  /// error everything is as before.
+  /// Changes to another recording, with the object it was made on where it names one, once it is
+  /// read. After an error everything is as before, also after one that only reading shows and that
+  /// is a notice then.
   [[nodiscard]] Status open_clip(const std::string& path);
   /// Whether the object that is shown stays also where the next recording names one of its own.
   enum class Keep : std::uint8_t { no, yes };
@@ -81,6 +82,8 @@ class Session {
   [[nodiscard]] Playback& playback() { return playback_; }
   /// The recording that is shown; null where the mouse moves the hand.
   [[nodiscard]] const Clip* clip() const { return clip_ ? &*clip_ : nullptr; }
+  /// How many recordings have been shown so far.
+  [[nodiscard]] std::size_t clips_begun() const { return clips_begun_; }
   /// Whether the recording is still being read.
   [[nodiscard]] bool loading() const { return clip_ && !clip_begun_; }
 
@@ -125,7 +128,8 @@ class Session {
   std::optional<double> press_m_;
   std::optional<Clip> clip_;
   bool clip_begun_ = false;
-  std::optional<Clip> clip_before_;  ///< until the new one is known to have frames
+  std::size_t clips_begun_ = 0;
+  std::optional<Clip> clip_before_;  ///< until the new one is known to be whole
   Playback playback_;
   MouseHand mouse_hand_;
   std::int64_t mouse_time_ns_ = 0;

@@ -99,9 +99,9 @@ void Viewer::frame(const Input& input, unsigned framebuffer, Drawing drawing) {
   take_pointer(input);
   for (const std::string& path : input.dropped) desk_.open(path);
 
-  const bool was_loading = session_.loading();
+  const std::size_t begun_before = session_.clips_begun();
   session_.advance(input.step_s, aim(input));
-  if (was_loading && !session_.loading()) {
+  if (session_.clips_begun() != begun_before) {
     if (press_at_first_m_) desk_.tell(session_.press(*press_at_first_m_));
     press_at_first_m_.reset();
     desk_.look(desk_.camera.view());
