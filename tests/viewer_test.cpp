@@ -9,6 +9,7 @@
 #include "nade/io/hand_file.h"
 #include "script.h"
 #include "session.h"
+#include "support/files.h"
 #include "support/scratch_folder.h"
 #include "support/viewer_assets.h"
 
@@ -39,6 +40,14 @@ class RecordedTest : public test::FolderTest {
     }
     EXPECT_TRUE(writer->finish().ok());
     return frames;
+  }
+
+  /// As if what `from` has were corrected already; `keys` are the header's, too.
+  void call_corrected(const std::string& from, const std::string& to,
+                      const std::string& keys = "") const {
+    std::string text = test::read_file(path(from));
+    text.insert(text.find('\n') - 1, ",\"method\":\"nade\"" + keys);
+    test::write_file(path(to), text);
   }
 
   static Session::Setup session_setup() {
@@ -323,6 +332,28 @@ TEST_F(RecordedTest, MouseHandIsNoChildsAfterAChildsRecording) {
   session.advance(kStep_s, {});
   ASSERT_TRUE(session.hands()[1]);
   EXPECT_EQ(session.hands()[1]->scale, own_scale);
+}
+
+TEST_F(RecordedTest, ACorrectedRecordingSetsTheMethodAsideForAWhile) {
+  make_stroke("a.jsonl", "plane");
+  call_corrected("a.jsonl", "c.jsonl");
+  Session session(session_setup());
+  ASSERT_TRUE(session.show_object("plane").ok());
+  const auto method_under = [&](const char* name) {
+    EXPECT_TRUE(session.open_clip(path(name)).ok());
+    begin(session);
+    return session.corrector().method;
+  };
+  EXPECT_EQ(method_under("c.jsonl"), Method::none);
+  EXPECT_EQ(method_under("a.jsonl"), Method::nade);
+  EXPECT_EQ(method_under("c.jsonl"), Method::none);
+  session.close_clip();
+  EXPECT_EQ(session.corrector().method, Method::nade);
+  EXPECT_EQ(method_under("c.jsonl"), Method::none);
+  CorrectorOptions chosen = session.corrector();
+  chosen.method = Method::paper;
+  session.set_corrector(chosen);
+  EXPECT_EQ(method_under("a.jsonl"), Method::paper) << "chosen by hand meanwhile";
 }
 
 TEST(Script, SaysWhatHappensInWhichFrame) {

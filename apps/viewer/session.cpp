@@ -81,6 +81,7 @@ void Session::close_clip() {
   press_m_.reset();
   hands_ = {};
   scales_ = {};
+  return_to_method();
   put_mouse_hand();
   restart();
 }
@@ -93,7 +94,13 @@ void Session::put_mouse_hand() {
                                placement_.pose.rotation * place->pose.rotation});
 }
 
+void Session::return_to_method() {
+  if (method_before_) setup_.corrector.method = *method_before_;
+  method_before_.reset();
+}
+
 void Session::set_corrector(const CorrectorOptions& options) {
+  if (options.method != setup_.corrector.method) method_before_.reset();
   setup_.corrector = options;
   restart();
 }
@@ -158,6 +165,7 @@ void Session::begin_clip() {
   playback_.time_s = 0.0;
   playback_.index = 0;
   playback_.playing = true;
+  return_to_method();
   const Status stands = stand_as_recorded();
   if (!stands) notices_.push_back(stands.error().message);
   keep_ = Keep::no;
@@ -167,7 +175,7 @@ void Session::begin_clip() {
 Status Session::stand_as_recorded() {
   const auto header = nlohmann::json::parse(clip_->header().unknown_json, nullptr, false);
   if (header.is_object() && header.contains("method")) {
-    setup_.corrector.method = Method::none;
+    method_before_ = std::exchange(setup_.corrector.method, Method::none);
     notices_.push_back(
         fmt::format("{} is corrected already: it is shown as it is, method none", clip_->path()));
   }

@@ -118,9 +118,11 @@ class Session {
   [[nodiscard]] Status stand_under_clip();
   [[nodiscard]] Status stand_as_recorded();
   void restart();
+  void return_to_method();
   void put_mouse_hand();
 
   Setup setup_;
+  std::optional<Method> method_before_;  ///< chosen, where a corrected recording has set it aside
   std::shared_ptr<LoadedObject> loaded_;
   Placement placement_;
   Keep keep_ = Keep::no;
