@@ -356,6 +356,23 @@ TEST_F(RecordedTest, ACorrectedRecordingSetsTheMethodAsideForAWhile) {
   EXPECT_EQ(method_under("a.jsonl"), Method::paper) << "chosen by hand meanwhile";
 }
 
+TEST_F(RecordedTest, ACorrectedRecordingsObjectIsAsSoftAndAsFarOnAsItWas) {
+  make_stroke("a.jsonl", "dog:alive");
+  call_corrected("a.jsonl", "c.jsonl", ",\"softness\":0.006,\"animation_start\":-500000000");
+  Session session(session_setup());
+  ASSERT_TRUE(session.show_object("plane").ok());
+  ASSERT_TRUE(session.open_clip(path("c.jsonl")).ok());
+  begin(session);
+  EXPECT_EQ(session.softness_m(), 0.006);
+  session.seek(40);
+  const std::int64_t time_ns = session.clip()->start_ns() + session.clip()->time_ns(40);
+  Result<LoadedObject> dog = load_object("dog:alive");
+  dog->move_to(1e-9 * static_cast<double>(time_ns + 500'000'000));
+  EXPECT_TRUE(session.loaded().soup->vertices == dog->soup->vertices);
+  session.close_clip();
+  EXPECT_EQ(session.softness_m(), 0.0);
+}
+
 TEST(Script, SaysWhatHappensInWhichFrame) {
   const auto steps = parse_script(
       "# a stroke\n2 click method:none\n0 move 10 20\n1 glide 30 40 2  # right and down\n\n"

@@ -134,6 +134,11 @@ std::vector<std::string> Clip::warnings() const {
   return complete() ? impl_->warnings : std::vector<std::string>{};
 }
 
+std::int64_t Clip::start_ns() const {
+  NADE_ASSERT(complete());
+  return impl_->start_ns;
+}
+
 std::size_t Clip::size() const {
   const std::lock_guard lock(impl_->mutex);
   return impl_->times.size();

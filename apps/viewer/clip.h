@@ -40,6 +40,8 @@ class Clip {
   /// What was odd about the file, once complete.
   [[nodiscard]] std::vector<std::string> warnings() const;
 
+  /// The recording's time at its first frame, once complete.
+  [[nodiscard]] std::int64_t start_ns() const;
   /// How many frames have been read so far.
   [[nodiscard]] std::size_t size() const;
   /// Of frame `index` < size(), since the first.

@@ -24,6 +24,7 @@ constexpr std::int64_t kLeadIn_ns = 1'500'000'000;
 /// So many frames of a recording are caught up with in one frame of the window.
 constexpr std::size_t kCatchUpMax = 240;
 constexpr double kPressAtFirst_m = 0.02;
+constexpr double kSoftest_m = 0.02;
 
 }  // namespace
 
@@ -173,14 +174,20 @@ void Session::begin_clip() {
 }
 
 Status Session::stand_as_recorded() {
+  recorded_.reset();
+  recorded_softness_m_ = 0.0;
   const auto header = nlohmann::json::parse(clip_->header().unknown_json, nullptr, false);
   if (header.is_object() && header.contains("method")) {
     method_before_ = std::exchange(setup_.corrector.method, Method::none);
     notices_.push_back(
         fmt::format("{} is corrected already: it is shown as it is, method none", clip_->path()));
+    if (header.contains("softness") && header["softness"].is_number()) {
+      recorded_softness_m_ = std::clamp(header["softness"].get<double>(), 0.0, kSoftest_m);
+    }
   }
   const auto recorded = placing_from(clip_->header().unknown_json, clip_->path());
   if (!recorded) return recorded.error();
+  recorded_ = *recorded;
   const bool fits = *recorded && (keep_ == Keep::no || (*recorded)->object == loaded_->spec);
   if (fits && !placed_by_hand_) {
     press_m_.reset();
@@ -190,6 +197,26 @@ Status Session::stand_as_recorded() {
     notices_.push_back(shown.error().message);
   }
   return placed_by_hand_ ? ok_status() : stand_under_clip();
+}
+
+/// With the first frame on, where the header does not say otherwise of this object.
+double Session::animation_time_s(std::int64_t clip_time_ns) const {
+  const bool says =
+      recorded_ && recorded_->object == loaded_->spec && recorded_->animation_start_ns;
+  const std::int64_t start_ns = says ? *recorded_->animation_start_ns - clip_->start_ns() : 0;
+  return 1e-9 * static_cast<double>(clip_time_ns - start_ns);
+}
+
+double Session::softness_m() const {
+  switch (setup_.corrector.method) {
+    case Method::nade:
+      return setup_.corrector.settle.softness_m;
+    case Method::none:
+      return clip_begun_ ? recorded_softness_m_ : 0.0;
+    case Method::paper:
+      break;
+  }
+  return 0.0;
 }
 
 void Session::seek(std::size_t index) {
@@ -268,7 +295,7 @@ void Session::advance_clip(double step_s) {
 
 void Session::show_frame(std::size_t index, Measured measured) {
   const ClipFrame frame = clip_->frame(index);
-  loaded_->move_to(1e-9 * static_cast<double>(clip_->time_ns(index)));
+  loaded_->move_to(animation_time_s(clip_->time_ns(index)));
   for (std::size_t side = 0; side < 2; ++side) {
     if (!frame.hands[side]) {
       hands_[side].reset();

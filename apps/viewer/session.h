@@ -100,6 +100,9 @@ class Session {
   [[nodiscard]] const LoadedObject& loaded() const { return *loaded_; }
   [[nodiscard]] bool has_object() const { return loaded_ != nullptr; }
   [[nodiscard]] std::shared_ptr<const LoadedObject> shared_object() const { return loaded_; }
+  /// Of the object as it is drawn: as set for the method nade, of hands corrected already as they
+  /// were recorded.
+  [[nodiscard]] double softness_m() const;
   [[nodiscard]] const Placement& placement() const { return placement_; }
   [[nodiscard]] Object object() const { return loaded_->placed(placement_); }
   [[nodiscard]] MouseHand& mouse_hand() { return mouse_hand_; }
@@ -117,6 +120,7 @@ class Session {
   void correct(const HandPose& tracked, std::int64_t time_ns, Measured measured);
   [[nodiscard]] Status stand_under_clip();
   [[nodiscard]] Status stand_as_recorded();
+  [[nodiscard]] double animation_time_s(std::int64_t clip_time_ns) const;
   void restart();
   void return_to_method();
   void put_mouse_hand();
@@ -130,6 +134,8 @@ class Session {
   std::optional<double> press_m_;
   std::optional<Clip> clip_;
   bool clip_begun_ = false;
+  std::optional<ObjectPlacing> recorded_;  ///< as the recording's header says
+  double recorded_softness_m_ = 0.0;
   std::size_t clips_begun_ = 0;
   std::optional<Clip> clip_before_;  ///< until the new one is known to be whole
   Playback playback_;

@@ -208,8 +208,7 @@ void Viewer::draw_scene(int window_height, unsigned framebuffer) {
   frame.hands = session_.hands();
   frame.shown = desk_.shown;
   frame.overlays = desk_.overlays;
-  const CorrectorOptions& corrector = session_.corrector();
-  if (corrector.method == Method::nade) frame.softness_m = corrector.settle.softness_m;
+  frame.softness_m = session_.softness_m();
   clear(framebuffer);
   draw::Target target;
   target.framebuffer = framebuffer;
