@@ -80,6 +80,19 @@ TEST(Press, MedianDepthIsTheOneAskedFor) {
   }
 }
 
+TEST(Press, OneFarGlitchIsNoMatter) {
+  const LoadedObject object = loaded("plane");
+  for (const double height : {1e8, -1e8}) {
+    PalmTrack track = wandering_track();
+    track.add(frame_with(Vec3(0.3, height, -0.1)));
+    const auto pressed = press(object, {}, track, 0.02);
+    ASSERT_TRUE(pressed.ok()) << pressed.error().message;
+    EXPECT_NEAR(median_depth(object.placed(*pressed), track.frames()), 0.02, 1e-6);
+    const auto without = press(object, {}, wandering_track(), 0.02);
+    EXPECT_NEAR((pressed->pose.position - without->pose.position).norm(), 0.0, 0.002);
+  }
+}
+
 TEST(Press, TurnAndScaleAreKept) {
   const LoadedObject object = loaded("sphere:0.1");
   Placement placement;

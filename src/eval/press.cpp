@@ -14,6 +14,7 @@ namespace {
 constexpr double kReach_m = 0.5;
 constexpr double kDepthMax_m = 0.2;
 constexpr double kRise_m = 0.005;         // of the scan that finds where the depth is first passed
+constexpr double kFarthest_m = 5.0;       // that the scan goes from the palms' median height
 constexpr std::size_t kScanFrames = 600;  // enough for a median to a fraction of kRise_m
 constexpr double kNothing = -std::numeric_limits<double>::infinity();
 
@@ -92,13 +93,19 @@ class PressSearch {
   void find_heights() {
     lowest_ = std::numeric_limits<double>::infinity();
     highest_ = -lowest_;
+    std::vector<double> heights;
     for (const PalmSkin& frame : few_) {
       for (const auto& point : frame) {
         if (!point) continue;
-        lowest_ = std::min(lowest_, point->dot(up_));
-        highest_ = std::max(highest_, point->dot(up_));
+        heights.push_back(point->dot(up_));
+        lowest_ = std::min(lowest_, heights.back());
+        highest_ = std::max(highest_, heights.back());
       }
     }
+    // A tracker's glitch may be anywhere, and does not move the median.
+    const double middle = median(heights);
+    lowest_ = std::max(lowest_, middle - kFarthest_m);
+    highest_ = std::min(highest_, middle + kFarthest_m);
     lowest_ -= 0.02;
     highest_ += 2.0 * depth_m_ + 0.02;
   }
