@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "headless.h"
 #include "nade/eval/synth.h"
@@ -377,6 +379,15 @@ TEST_F(ViewCommandTest, BadScriptIsNamed) {
                  "no widget is called 'no-such-thing'");
   test::write_file(path("script.txt"), "0 jump\n");
   expect_failure(nade("view --headless --script script.txt"), "script.txt: line 1: expected");
+}
+
+TEST_F(ViewCommandTest, ScriptThatIsLongerThanTheRunIsNamed) {
+  test::write_file(path("script.txt"), "3 wheel 1\n58 click object:sphere\n");
+  expect_failure(nade("view --headless --script script.txt --screenshot v.png"),
+                 "script: the run ends after 60 frames, and steps are left over: expected --frames "
+                 "61 or more");
+  expect_failure(nade("view --frames 58 --script script.txt"), "expected --frames 61 or more");
+  EXPECT_EQ(files(), std::vector<std::string>{"script.txt"});
 }
 
 TEST_F(ViewCommandTest, TakesAStrokeInAWindow) {

@@ -54,10 +54,11 @@ draw::Image HeadlessViewer::picture() const {
 Viewer& HeadlessViewer::viewer() { return *impl_->viewer; }
 
 Status run_headless(ViewerSetup setup, const Run& run) {
+  const std::size_t frames = run.frames.value_or(kFramesAtLeast);
+  if (const Status fits = check_length(run.script, frames); !fits) return fits;
   Result<HeadlessViewer> headless = HeadlessViewer::create(std::move(setup), run.width, run.height);
   if (!headless) return headless.error();
   ScriptPlayer script(run.script);
-  const std::size_t frames = run.frames.value_or(kFramesAtLeast);
   for (std::size_t i = 0; i < frames; ++i) {
     const Result<std::vector<Event>> events = script.next(headless->viewer().ui());
     if (!events) return events.error();

@@ -2,7 +2,29 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace nade::viewer {
+namespace {
+
+/// A click is let go so many frames after it came.
+constexpr std::size_t kClickEnds = 2;
+
+}  // namespace
+
+Status check_length(const std::vector<ScriptedStep>& steps, std::size_t frames) {
+  std::size_t needed = 0;
+  for (const ScriptedStep& step : steps) {
+    const bool clicks = std::holds_alternative<ScriptedClick>(step.act);
+    needed = std::max(needed, step.frame + 1 + (clicks ? kClickEnds : 0));
+  }
+  if (needed <= frames) return ok_status();
+  return Error{
+      ErrorCode::bad_value,
+      fmt::format("script: the run ends after {} frames, and steps are left over: expected "
+                  "--frames {} or more",
+                  frames, needed)};
+}
 
 ScriptPlayer::ScriptPlayer(std::vector<ScriptedStep> steps) : steps_(steps.begin(), steps.end()) {}
 
@@ -47,7 +69,7 @@ Status ScriptPlayer::click(const ScriptedClick& click, const UiKit& ui) {
   event.change = Change::down;
   later_.push_back({frame_ + 1, event});
   event.change = Change::up;
-  later_.push_back({frame_ + 2, event});
+  later_.push_back({frame_ + kClickEnds, event});
   return ok_status();
 }
 

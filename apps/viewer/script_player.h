@@ -9,6 +9,9 @@
 
 namespace nade::viewer {
 
+/// Refuses a script that goes on after a run's last frame.
+[[nodiscard]] Status check_length(const std::vector<ScriptedStep>& steps, std::size_t frames);
+
 /// Does what a script says, frame by frame: a click is a move, a press and a release, each in a
 /// frame of its own.
 class ScriptPlayer {

@@ -224,6 +224,9 @@ Status loop(GLFWwindow* window, Viewer& viewer, const Run& run, Input& input) {
 }  // namespace
 
 Status run_window(ViewerSetup setup, const Run& run) {
+  if (run.frames) {
+    if (const Status fits = check_length(run.script, *run.frames); !fits) return fits;
+  }
   glfwSetErrorCallback(note_complaint);
   if (glfwInit() == GLFW_FALSE) {
     const char* const display = std::getenv("DISPLAY");
