@@ -97,6 +97,8 @@ TEST_F(RenderCommand, CorrectedRecordingBesideAndAlone) {
   ASSERT_EQ(nade("synth -o other.jsonl --object plane --duration 0.6 --rate 70").status, 0);
   ASSERT_EQ(nade("correct other.jsonl -o other-out.jsonl --object plane").status, 0);
   expect_failure(render("in.jsonl other-out.jsonl -o wrong.png"), "other-out.jsonl");
+  expect_failure(render("in.jsonl other.jsonl -o wrong.png"),
+                 "other.jsonl: expected a corrected recording second, found a tracked one");
   EXPECT_FALSE(std::filesystem::exists(path("wrong.png")));
 }
 

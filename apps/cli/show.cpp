@@ -21,6 +21,7 @@ struct Headers {
   std::optional<ObjectPlacing> placing;
   double softness_m = 0.0;
   bool is_corrected = false;  ///< the first recording names a method
+  bool second_is_corrected = false;
 };
 
 Result<RecordingHeader> header_of(const std::string& path) {
@@ -44,6 +45,7 @@ Result<Headers> read_headers(const ShowArguments& arguments) {
     if (json.is_object() && json.contains("softness") && json["softness"].is_number()) {
       headers.softness_m = std::clamp(json["softness"].get<double>(), 0.0, kSoftest_m);
     }
+    headers.second_is_corrected = headers.is_corrected;  // which is read first
     headers.is_corrected = is_corrected(*header);
   }
   return headers;
@@ -61,6 +63,11 @@ Status check(const ShowArguments& arguments, const Headers& headers) {
   }
   if (arguments.corrected && headers.is_corrected) {
     return not_tracked(arguments.recording, kTrackedFirst);
+  }
+  if (arguments.corrected && !headers.second_is_corrected) {
+    return Error{ErrorCode::bad_value,
+                 fmt::format("{}: expected a corrected recording second, found a tracked one",
+                             *arguments.corrected)};
   }
   if (!arguments.object.object && !headers.placing) {
     return Error{
