@@ -239,4 +239,18 @@ TEST_F(RenderCommand, FigureOfOnesOwnRecording) {
   EXPECT_EQ(files(), (std::vector<std::string>{"in.jsonl", "sheet.png"}));
 }
 
+TEST_F(RenderCommand, FigureTitleEndsBeforeThePictures) {
+  make_stroke("in.jsonl");
+  std::vector<std::string> sheets;
+  for (const char letter : {'i', 'W'}) {
+    const std::string object = "a_statue_that_was_scanned" + std::string(40, letter) + ".obj";
+    write_file(path(object),
+               "v -1 0 -1\nv 1 0 -1\nv 0 0 1\nv 0 1 0\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n");
+    const Ran ran = nade("figure in.jsonl -o sheet.png --method none --object " + object);
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    sheets.push_back(read_file(path("sheet.png")));
+  }
+  EXPECT_TRUE(sheets[0] == sheets[1]) << "what tells the names apart is cut off";
+}
+
 }  // namespace

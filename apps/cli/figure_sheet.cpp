@@ -104,6 +104,33 @@ draw::Camera object_camera(const draw::Stage& stage) {
       .camera(kPanelAspect);
 }
 
+/// What stands before a row.
+struct Title {
+  std::string text;
+  float height_px = 62.0F;
+};
+
+/// Within the space before the pictures: as long a title as can be in small letters, then cut.
+Title fitted(const std::string& text) {
+  constexpr auto kRoom = static_cast<float>(kRowTitle - kGap);
+  constexpr float kSmallest = 36.0F;
+  Title title{text};
+  const float width = draw::text_width(text, title.height_px);
+  if (width <= kRoom) return title;
+  // Letters of another size are not exactly as much wider.
+  title.height_px = std::max(kSmallest, 0.97F * title.height_px * kRoom / width);
+  std::string kept = text;
+  while (!kept.empty() && draw::text_width(title.text, title.height_px) > kRoom) {
+    // A letter of UTF-8 goes whole.
+    while (kept.size() > 1 && (static_cast<unsigned char>(kept.back()) & 0xC0U) == 0x80U) {
+      kept.pop_back();
+    }
+    kept.pop_back();
+    title.text = kept + "…";
+  }
+  return title;
+}
+
 class Sheet {
  public:
   Sheet(const FigureContent& content, Studio& studio)
@@ -151,7 +178,9 @@ class Sheet {
     if (!set) return set;
     const float middle =
         static_cast<float>(layout_.top(index)) + 0.5F * static_cast<float>(layout_.panel_height);
-    canvas_.text({static_cast<float>(kMargin), middle - 36.0F}, row.title, 62.0F, kInk);
+    const Title title = fitted(row.title);
+    canvas_.text({static_cast<float>(kMargin), middle - 0.58F * title.height_px}, title.text,
+                 title.height_px, kInk);
     paste(index, 0, take(studio_.stage.arrange_object(), object_camera(studio_.stage)));
     const draw::Camera camera = hand_camera(row);
     draw::StageFrame frame;
