@@ -109,6 +109,8 @@ TEST_F(RenderCommand, NumberedPictures) {
   EXPECT_EQ(files(), (std::vector<std::string>{"in.jsonl", "walk-000.png", "walk-001.png",
                                                "walk-002.png", "walk-003.png", "walk-004.png"}));
   EXPECT_EQ(png_size(path("walk-004.png")).width, 160u);
+  EXPECT_EQ(render("in.jsonl -o 50%-%d-100%.png --from 0.1 --to 0.1").status, 0);
+  EXPECT_TRUE(std::filesystem::exists(path("50%-0-100%.png")));
 }
 
 TEST_F(RenderCommand, FilmOfALeftAndARightHand) {

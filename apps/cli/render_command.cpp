@@ -45,17 +45,20 @@ struct NumberedName {
   }
 };
 
+/// The last place for a number; other percent signs are letters like any.
 std::optional<NumberedName> numbered(const std::string& name) {
-  const std::size_t percent = name.find('%');
-  if (percent == std::string::npos) return std::nullopt;
-  std::size_t end = percent + 1;
-  NumberedName parts{name.substr(0, percent), 0, {}};
-  for (; end < name.size() && name[end] >= '0' && name[end] <= '9'; ++end) {
-    parts.digits = std::min(10 * parts.digits + (name[end] - '0'), 20);
+  for (std::size_t percent = name.rfind('%'); percent != std::string::npos;
+       percent = percent == 0 ? std::string::npos : name.rfind('%', percent - 1)) {
+    std::size_t end = percent + 1;
+    NumberedName parts{name.substr(0, percent), 0, {}};
+    for (; end < name.size() && name[end] >= '0' && name[end] <= '9'; ++end) {
+      parts.digits = std::min(10 * parts.digits + (name[end] - '0'), 20);
+    }
+    if (end == name.size() || name[end] != 'd') continue;
+    parts.after = name.substr(end + 1);
+    return parts;
   }
-  if (end == name.size() || name[end] != 'd') return std::nullopt;
-  parts.after = name.substr(end + 1);
-  return parts;
+  return std::nullopt;
 }
 
 Result<OutputKind> kind_of(const RenderArguments& arguments) {
