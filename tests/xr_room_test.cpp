@@ -135,6 +135,14 @@ TEST(Chooser, ButtonsChooseAndMove) {
   EXPECT_FALSE(chooser.take_wishes().leave);
 }
 
+TEST(Chooser, NoTwoButtonsHaveOneName) {
+  const std::vector<std::string> objects{"sphere:0.05", "plane",   "sphere",  "dog",
+                                         "dog:alive",   "a/x.obj", "b/x.obj", "b/y.obj"};
+  const std::vector<std::string> names{"sphere:0.05", "plane",   "sphere",  "dog",
+                                       "dog:alive",   "a/x.obj", "b/x.obj", "y"};
+  EXPECT_EQ(button_names(objects), names);
+}
+
 TEST(MotionFiles, HeadersSayWhenTheAnimationBegan) {
   RecordedAs as;
   as.object = "dog:alive";

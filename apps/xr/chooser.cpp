@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <utility>
@@ -32,6 +33,26 @@ std::string short_name(const std::string& object) {
   return stem.empty() ? object : stem;
 }
 
+std::vector<std::string> button_names(const std::vector<std::string>& objects) {
+  // After the ":" no folder begins.
+  const auto without_folders = [](const std::string& object) {
+    const std::size_t folders = object.substr(0, object.find(':')).find_last_of('/');
+    return folders == std::string::npos ? object : object.substr(folders + 1);
+  };
+  const auto is_unlike_others = [&objects](const std::string& name, const auto& name_of) {
+    return std::count_if(objects.begin(), objects.end(),
+                         [&](const std::string& object) { return name_of(object) == name; }) == 1;
+  };
+  std::vector<std::string> names;
+  for (const std::string& object : objects) {
+    names.push_back(short_name(object));
+    if (is_unlike_others(names.back(), short_name)) continue;
+    names.back() = without_folders(object);
+    if (!is_unlike_others(names.back(), without_folders)) names.back() = object;
+  }
+  return names;
+}
+
 Chooser::Chooser(Setup setup) : setup_(std::move(setup)) {
   show_.object = setup_.objects.front();
   show_.method = setup_.method;
@@ -45,10 +66,11 @@ void Chooser::rebuild() {
   if (setup_.show_time) {
     panel.lines.push_back(fmt::format("correction {:.0f} µs a frame", time_us_));
   }
+  const std::vector<std::string> names = button_names(setup_.objects);
   std::vector<study::PanelButton> row;
   for (std::size_t i = 0; i < setup_.objects.size(); ++i) {
-    row.push_back({kFirstObject + static_cast<int>(i), short_name(setup_.objects[i]),
-                   setup_.objects[i] == show_.object});
+    row.push_back(
+        {kFirstObject + static_cast<int>(i), names[i], setup_.objects[i] == show_.object});
   }
   panel.rows.push_back(row);
   row.clear();

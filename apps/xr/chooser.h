@@ -37,5 +37,7 @@ class Chooser final : public Guide {
 
 /// "sphere", "bunny": an object's name without folders and ending.
 [[nodiscard]] std::string short_name(const std::string& object);
+/// Of each object its short name, or as much more as tells it from the others.
+[[nodiscard]] std::vector<std::string> button_names(const std::vector<std::string>& objects);
 
 }  // namespace nade::xr
