@@ -32,8 +32,10 @@ class StudyDeskTest : public test::StudyFiles {
     return plan;
   }
 
-  void open() {
-    auto run = study::StudyRun::open(plan(), options());
+  void open(const std::string& spec = "sphere") {
+    study::Plan with = plan();
+    with.objects.front().spec = spec;
+    auto run = study::StudyRun::open(with, options());
     ASSERT_TRUE(run.ok()) << run.error().message;
     desk_ = std::make_shared<StudyDesk>(std::move(run).value(), 1.0);
     ViewerSetup setup;
@@ -136,6 +138,24 @@ TEST_F(StudyDeskTest, RunsByMouseFromStartToThanks) {
                            .norm() > 0.005;
     EXPECT_EQ(moved, trial.method != Method::none) << name_of(trial.method);
   }
+}
+
+TEST_F(StudyDeskTest, RecordsSinceWhenALivingObjectMoves) {
+  open("dog:alive");
+  if (IsSkipped()) return;
+  click("study:1");
+  while (run().state() != StudyState::stroking) frames(1);
+  const std::int64_t moved_ns = viewer_->viewer().session().mouse_time_ns();
+  stroke();
+  const study::Trial& trial = run().session().trials().front();
+  const std::string stem = path("data/P01/" + study::recording_stem(trial, 1));
+  viewer_.reset();
+  desk_.reset();
+  const auto recorded = test::read_whole(stem + ".corrected.jsonl.gz");
+  const auto placing = placing_from(recorded.header.unknown_json, stem);
+  ASSERT_TRUE(placing.ok() && *placing && (*placing)->animation_start_ns);
+  EXPECT_GT(moved_ns, 400'000'000) << "it moves while the seconds are counted down";
+  EXPECT_EQ(*(*placing)->animation_start_ns, recorded.frames.front().time_ns - moved_ns);
 }
 
 TEST_F(StudyDeskTest, TheOperatorHasKeys) {

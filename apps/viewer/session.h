@@ -105,6 +105,8 @@ class Session {
   [[nodiscard]] double softness_m() const;
   [[nodiscard]] const Placement& placement() const { return placement_; }
   [[nodiscard]] Object object() const { return loaded_->placed(placement_); }
+  /// For how long the mouse has moved the hand, which is how far on the object's animation is then.
+  [[nodiscard]] std::int64_t mouse_time_ns() const { return mouse_time_ns_; }
   [[nodiscard]] MouseHand& mouse_hand() { return mouse_hand_; }
   [[nodiscard]] Figures& figures() { return figures_; }
   [[nodiscard]] const draw::HandMeshes& meshes() const { return setup_.meshes; }

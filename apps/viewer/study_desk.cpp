@@ -169,6 +169,9 @@ void StudyDesk::go_on(const Session& session, const Pose& head, const Input& inp
   frame.now_ns = now_ns_;
   frame.head = head;
   frame.object = session.placement();
+  if (session.has_object() && session.loaded().animation) {
+    frame.animated_ns = session.mouse_time_ns();
+  }
   for (std::size_t side = 0; side < 2 && shown_; ++side) {
     if (!session.hands()[side]) continue;
     frame.tracked[side] = &session.hands()[side]->tracked;

@@ -9,7 +9,9 @@ namespace nade::xr {
 /// still in it. Times are strictly increasing.
 struct Moment {
   study::MotionFrame motion;
-  Placement object;            ///< where it stands, if there is one
+  Placement object;  ///< where it stands, if there is one
+  /// For how long the object has been moving, where it moves by itself.
+  std::optional<std::int64_t> animated_ns;
   double correction_us = 0.0;  ///< what correcting the hands took
 };
 

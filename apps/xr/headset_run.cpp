@@ -278,6 +278,10 @@ void Loop::tell_guide(const TrackedFrame& frame) {
     if (hand) see_from(spot, *hand, motion.tracked[side], motion.corrected[side]);
   }
   moment_.object = room_->placement();
+  moment_.animated_ns.reset();
+  if (const auto start_ns = room_->animation_start_ns()) {
+    moment_.animated_ns = frame.time_ns - *start_ns;
+  }
   moment_.correction_us = costs_.last_correction_us();
   if (recorded_as_) record();
   watch_recorder();
@@ -296,9 +300,7 @@ void Loop::record() {
     // A recording starts at time 0.
     recorded_from_ns_ = moment_.motion.time_ns;
     RecordedAs as = *recorded_as_;
-    if (const auto start_ns = room_->animation_start_ns()) {
-      as.animation_start_ns = *start_ns - *recorded_from_ns_;
-    }
+    if (moment_.animated_ns) as.animation_start_ns = -*moment_.animated_ns;
     recording_ = recording_ == 0 ? 1 : next_number(*run_.record, recording_);
     recorder_->begin(motion_files(numbered_path(*run_.record, recording_), as));
   }

@@ -63,6 +63,7 @@ void StudyGuide::seen(const Moment& moment) {
   }
   frame.head = motion.head;
   frame.object = moment.object;
+  frame.animated_ns = moment.animated_ns;
   run_.frame(frame);
   if (run_.view_revision() != revision_ || run_.scene().spec != show_.object ||
       run_.scene().method != show_.method) {

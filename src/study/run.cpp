@@ -96,9 +96,11 @@ MotionFiles StudyRun::Impl::files(const RunFrame& frame) const {
   files.corrected_path = stem + ".corrected.jsonl.gz";
   files.tracked_header = {options.source, invented ? "" : store.now(), options.hand_scale_known,
                           Json{{"study", about}}.dump()};
-  const std::string placing =
-      with_placing(files.tracked_header.unknown_json, ObjectPlacing{scene.spec, frame.object});
-  Json corrected = Json::parse(placing);
+  ObjectPlacing placing{scene.spec, frame.object};
+  if (frame.animated_ns) {
+    placing.animation_start_ns = frame.now_ns - stroking_ns - *frame.animated_ns;
+  }
+  Json corrected = Json::parse(with_placing(files.tracked_header.unknown_json, placing));
   corrected["method"] = name_of(scene.method);
   corrected["tool"] = store.options().tool;
   files.corrected_header = files.tracked_header;

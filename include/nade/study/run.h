@@ -30,6 +30,8 @@ struct RunFrame {
   std::array<const CorrectedHand*, 2> corrected{};
   std::optional<Pose> head;
   Placement object;  ///< where the object stands, from the start of a trial to its end
+  /// For how long the object has been moving, where it moves by itself.
+  std::optional<std::int64_t> animated_ns{};
 };
 
 /// A participant's study while it runs: its course, its files and the recording of motion. Who
