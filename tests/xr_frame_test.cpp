@@ -84,6 +84,25 @@ TEST_F(FrameTest, DoesNotAllocate) {
   EXPECT_EQ(test::allocations_of([&] { pass(2 * frames); }), 0U);
 }
 
+/// The same on a ball that gives way, and on a dog that moves.
+class NaturalFrameTest : public FrameTest {
+ protected:
+  void furnish(RoomSetup& setup) override {
+    setup.objects = {"sphere", "dog:alive"};
+    setup.corrector.settle.softness_m = 0.005;
+  }
+};
+
+TEST_F(NaturalFrameTest, DoesNotAllocate) {
+  Show show = room_->show();
+  for (const char* const object : {"sphere", "dog:alive"}) {
+    show.object = object;
+    room_->set(show);
+    pass(60);
+    EXPECT_EQ(test::allocations_of([&] { pass(60); }), 0U) << object;
+  }
+}
+
 TEST_F(FrameTest, TakesUnderTwoMillisecondsOfTheProcessor) {
   if (test::kSanitized) GTEST_SKIP() << "not a question under sanitizers";
   pass(500);
