@@ -68,29 +68,11 @@ void go_on_at(const Object& object, const Pose& to, SettleMemory& memory) {
   memory.shape = object.surface().shape();
 }
 
-class NoSurface final : public Surface {
- public:
-  [[nodiscard]] std::optional<RayHit> first_hit(const Ray& /*ray*/) const noexcept override {
-    return std::nullopt;
-  }
-  [[nodiscard]] std::optional<SurfacePoint> closest_point(
-      const Vec3& /*query*/, double /*max_distance*/,
-      SurfaceHint& /*hint*/) const noexcept override {
-    return std::nullopt;
-  }
-};
-
 }  // namespace
 
 bool is_nowhere(const Object& object, const HandPose& tracked) noexcept {
   const Placement& placement = object.placement();
   return placement.scale == 0.0 || !is_usable(moved(tracked, placement.pose.inverse()));
-}
-
-const Object& nothing() noexcept {
-  static const NoSurface kNoSurface;
-  static const Object kNothing(kNoSurface);
-  return kNothing;
 }
 
 double rounded(double scale) noexcept { return kGrid * std::nearbyint(scale / kGrid); }

@@ -39,8 +39,6 @@ struct SeenHand {
 
 /// Whether an object is not there, or too far from the hand for numbers.
 [[nodiscard]] bool is_nowhere(const Object& object, const HandPose& tracked) noexcept;
-/// What stands in for it.
-[[nodiscard]] const Object& nothing() noexcept;
 
 /// The hand's size over the flesh's, rounded.
 [[nodiscard]] double rounded(double scale) noexcept;

@@ -13,6 +13,21 @@ RayHit hit_at(const Ray& ray, double distance, const Vec3& point, const Vec3& no
   return {distance, point, normal, normal.dot(ray.direction) > 0.0};
 }
 
+/// A squared length of a rotation is not off by more than this.
+constexpr double kNormalized = 1e-12;
+
+class NoSurface final : public Surface {
+ public:
+  [[nodiscard]] std::optional<RayHit> first_hit(const Ray& /*ray*/) const noexcept override {
+    return std::nullopt;
+  }
+  [[nodiscard]] std::optional<SurfacePoint> closest_point(
+      const Vec3& /*query*/, double /*max_distance*/,
+      SurfaceHint& /*hint*/) const noexcept override {
+    return std::nullopt;
+  }
+};
+
 }  // namespace
 
 std::uint64_t new_shape() noexcept {
@@ -70,6 +85,9 @@ std::optional<SurfacePoint> SphereSurface::closest_point(const Vec3& query, doub
 Object::Object(const Surface& surface, const Placement& placement, std::uint64_t instance)
     : surface_(&surface), placement_(placement), instance_(instance) {
   NADE_ASSERT(std::isfinite(placement.scale) && placement.scale >= 0.0);
+  // Bit for bit as it is where rounding alone is off; and no number is none of a rotation.
+  Quat& rotation = placement_.pose.rotation;
+  if (std::abs(rotation.squaredNorm() - 1.0) > kNormalized) rotation.normalize();
 }
 
 std::optional<RayHit> Object::first_hit(const Ray& ray_world) const noexcept {
@@ -95,6 +113,12 @@ std::optional<SurfacePoint> Object::closest_point(const Vec3& query_world, doubl
   found->normal = placement_.pose.rotation * found->normal;
   found->signed_distance *= placement_.scale;
   return found;
+}
+
+const Object& nothing() noexcept {
+  static const NoSurface kNoSurface;
+  static const Object kNothing(kNoSurface);
+  return kNothing;
 }
 
 }  // namespace nade

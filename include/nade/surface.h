@@ -95,7 +95,8 @@ struct ObjectIdentity {
 /// surface. All queries and answers are in world coordinates.
 class Object {
  public:
-  /// `placement.scale` >= 0, where 0 leaves nothing to touch. `surface` must outlive the object.
+  /// `placement.scale` >= 0, where 0 leaves nothing to touch; its rotation is normalized. `surface`
+  /// must outlive the object.
   /// Objects that share one, as two chairs of a kind, are told apart by `instance`, any number:
   /// else a hand that goes over from one to the other would be on one that is suddenly elsewhere.
   explicit Object(const Surface& surface, const Placement& placement = {},
@@ -116,5 +117,8 @@ class Object {
   Placement placement_;
   std::uint64_t instance_;
 };
+
+/// Nothing to touch: for frames in which no object is near.
+[[nodiscard]] const Object& nothing() noexcept;
 
 }  // namespace nade
