@@ -34,7 +34,9 @@ constexpr double kHighestClimb = 2.0;
 constexpr double kSurelyClimbs_m = 0.012;
 constexpr double kClimbsFrom = 0.35;
 constexpr double kSurelyClimbs = 0.05;
-/// In this time as far as it is held back by, but no faster than the hand goes, nearly.
+/// In this time as far as it is held back by, or nearly as fast as the hand goes: so much is asked
+/// for anew in each of the frame's rounds. (Asked for once a frame, and faster, fingers still
+/// fold.)
 constexpr double kClimbTime_s = 0.1;
 constexpr double kClimbAtRest_mps = 0.03;
 constexpr double kClimbOfSpeed = 0.7;

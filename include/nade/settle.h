@@ -74,7 +74,7 @@ using HandFreedoms = Eigen::Matrix<double, kHandFreedoms, 1>;
 enum class RowKind : std::uint8_t {
   keep_out,   ///< of the object, and over a cushion where there is one
   draw_near,  ///< to the surface
-  climb,      ///< no less than so far in a frame
+  climb,      ///< no less than so far in a round
   hold_back,  ///< from going farther in a frame
 };
 
