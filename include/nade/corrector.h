@@ -59,12 +59,12 @@ struct CorrectorOptions {
 /// one value for every joint.
 [[nodiscard]] std::optional<SkinDepths> believable_radii(const HandPose& hand) noexcept;
 
-/// What to draw, and why.
+/// What to draw, and why; in the tracked hand's frame.
 struct CorrectedHand {
-  HandPose pose;
+  HandPose pose;  ///< to draw: bit for bit the tracked one where there is nothing to correct
   HandStatus status = HandStatus::untracked;
-  Contacts contacts{};
-  std::array<double, kDigitCount> ray_turn_rad{};
+  Contacts contacts{};  ///< of each part that the person presses in; none of the others
+  std::array<double, kDigitCount> ray_turn_rad{};  ///< of method paper: the fingers' turned rays
 };
 
 /// Corrects one hand, frame by frame. Keep one for each hand; it is the only thing with memory. One
