@@ -62,16 +62,16 @@ bool is_low(const PosedHand& posed, const TouchSearch& search, const Held& held,
   return !search.object.first_hit({above + kBefore_m * held.back, -held.back, kRoom_m});
 }
 
-void climb(const PosedHand& posed, const TouchSearch& search, Digit digit, const Held& held,
-           const Vec3& up, std::vector<ContactRow>& rows) {
-  if (!is_low(posed, search, held, up)) return;
+/// `motion` is the held skin's, up.
+void climb(const TouchSearch& search, Digit digit, const Held& held, const ContactRow& motion,
+           std::vector<ContactRow>& rows) {
   const double share = held.climbs * smoothstep(kHeld_m, kSurelyClimbs_m, held.by_m);
   for (ContactRow& row : rows) {
     if (row.kind == RowKind::draw_near && row.digit == digit) row.stiffness *= 1.0 - share;
   }
   const double rate_mps =
       std::min(held.by_m / kClimbTime_s, kClimbAtRest_mps + kClimbOfSpeed * search.speed_mps);
-  ContactRow& row = rows.emplace_back(motion_along(posed, *held.point, up, search.frame));
+  ContactRow& row = rows.emplace_back(motion);
   row.kind = RowKind::climb;
   row.gap_m = -share * rate_mps * search.seconds;  // no lower in any case
   row.stiffness = kClimbStiffness;
@@ -91,7 +91,8 @@ void lift_over(const PosedHand& posed, const TouchSearch& search, std::vector<Co
   for (const ContactRow& row : rows) {
     if (row.kind != RowKind::keep_out || !row.digit || row.gap_m >= kTouches_m) continue;
     const Vec3 normal = search.frame * row.wrist.head<3>();
-    const double steep = smoothstep(kNotSteep, kSteep, std::abs(normal.dot(up)));
+    const double level = std::abs(normal.dot(up));
+    const double steep = smoothstep(kNotSteep, kSteep, level);
     if (steep == 0.0) continue;
     const Vec3 off = posed.flesh.position(*row.point) - search.tracked.position(*row.point);
     const Vec3 off_side = along_surface(normal, up).normalized();
@@ -100,8 +101,7 @@ void lift_over(const PosedHand& posed, const TouchSearch& search, std::vector<Co
                         (before_m - kAsideOfLift * std::max(0.0, off.dot(up)));
     Held& most = held[index_of(*row.digit)];
     if (by_m <= most.by_m) continue;
-    const double climbs = flat * smoothstep(kClimbsFrom, kSurelyClimbs, std::abs(normal.dot(up)));
-    most = {by_m, row.point, off_side, climbs};
+    most = {by_m, row.point, off_side, flat * smoothstep(kClimbsFrom, kSurelyClimbs, level)};
   }
   for (std::size_t d = 0; d < kDigitCount; ++d) {
     if (held[d].by_m <= kHeld_m) continue;
@@ -109,7 +109,7 @@ void lift_over(const PosedHand& posed, const TouchSearch& search, std::vector<Co
     const ContactRow motion = motion_along(posed, *held[d].point, up, search.frame);
     springs.force.head<6>() += lift * motion.wrist;
     springs.force.segment<4>(first_freedom(d)) += lift * motion.bend;
-    climb(posed, search, digit_at(d), held[d], up, rows);
+    if (is_low(posed, search, held[d], up)) climb(search, digit_at(d), held[d], motion, rows);
   }
 }
 
