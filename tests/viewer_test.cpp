@@ -67,6 +67,13 @@ class RecordedTest : public test::FolderTest {
     session.clip()->wait();
     session.advance(1e-6, {});
   }
+
+  /// With a plane until the recording names another object.
+  void play(Session& session, const std::string& name) {
+    ASSERT_TRUE(session.show_object("plane").ok());
+    ASSERT_TRUE(session.open_clip(path(name)).ok());
+    begin(session);
+  }
 };
 
 TEST_F(RecordedTest, EveryFrameOfAClipIsTheRecordings) {
@@ -106,9 +113,7 @@ TEST_F(RecordedTest, ClipThatBreaksOffIsShownUpToThere) {
 TEST_F(RecordedTest, PlayingCorrectsAsTheCorrectorDoes) {
   const std::vector<RecordedFrame> frames = make_stroke("a.jsonl", "sphere");
   Session session(session_setup());
-  ASSERT_TRUE(session.show_object("plane").ok());
-  ASSERT_TRUE(session.open_clip(path("a.jsonl")).ok());
-  begin(session);
+  ASSERT_NO_FATAL_FAILURE(play(session, "a.jsonl"));
   EXPECT_EQ(session.loaded().spec, "sphere") << "the header names it";
   session.playback().loop = false;
   const Result<LoadedObject> sphere = load_object("sphere");
@@ -131,9 +136,7 @@ TEST_F(RecordedTest, PlayingCorrectsAsTheCorrectorDoes) {
 TEST_F(RecordedTest, ALivingObjectMovesWithTheRecording) {
   make_stroke("a.jsonl", "dog:alive");
   Session session(session_setup());
-  ASSERT_TRUE(session.show_object("plane").ok());
-  ASSERT_TRUE(session.open_clip(path("a.jsonl")).ok());
-  begin(session);
+  ASSERT_NO_FATAL_FAILURE(play(session, "a.jsonl"));
   session.playback().loop = false;
   while (session.playback().playing) session.advance(kStep_s, {});
   Result<LoadedObject> dog = load_object("dog:alive");
@@ -152,9 +155,7 @@ TEST_F(RecordedTest, ALivingObjectMovesWithTheRecording) {
 TEST_F(RecordedTest, SeeksStepsAndLoops) {
   make_stroke("a.jsonl", "plane");
   Session session(session_setup());
-  ASSERT_TRUE(session.show_object("plane").ok());
-  ASSERT_TRUE(session.open_clip(path("a.jsonl")).ok());
-  begin(session);
+  ASSERT_NO_FATAL_FAILURE(play(session, "a.jsonl"));
   session.seek(40);
   EXPECT_EQ(session.playback().index, 40U);
   session.step(-1);
@@ -175,9 +176,7 @@ TEST_F(RecordedTest, SeeksStepsAndLoops) {
 TEST_F(RecordedTest, PlaysAnewFromTheEnd) {
   make_stroke("a.jsonl", "plane");
   Session session(session_setup());
-  ASSERT_TRUE(session.show_object("plane").ok());
-  ASSERT_TRUE(session.open_clip(path("a.jsonl")).ok());
-  begin(session);
+  ASSERT_NO_FATAL_FAILURE(play(session, "a.jsonl"));
   session.playback().loop = false;
   while (session.playback().playing) session.advance(kStep_s, {});
   session.play_or_pause();
@@ -191,9 +190,7 @@ TEST_F(RecordedTest, PlaysAnewFromTheEnd) {
 TEST_F(RecordedTest, MethodsShowInTheFigures) {
   make_stroke("a.jsonl", "plane");
   Session session(session_setup());
-  ASSERT_TRUE(session.show_object("plane").ok());
-  ASSERT_TRUE(session.open_clip(path("a.jsonl")).ok());
-  begin(session);
+  ASSERT_NO_FATAL_FAILURE(play(session, "a.jsonl"));
   const auto penetration = [&](Method method) {
     CorrectorOptions options = session.corrector();
     options.method = method;
@@ -211,9 +208,7 @@ TEST_F(RecordedTest, MethodsShowInTheFigures) {
 TEST_F(RecordedTest, PressMovesTheObjectAgainstThePalms) {
   make_stroke("a.jsonl", "plane");
   Session session(session_setup());
-  ASSERT_TRUE(session.show_object("plane").ok());
-  ASSERT_TRUE(session.open_clip(path("a.jsonl")).ok());
-  begin(session);
+  ASSERT_NO_FATAL_FAILURE(play(session, "a.jsonl"));
   EXPECT_FALSE(session.press_m()) << "stands as recorded";
   ASSERT_TRUE(session.press(0.035).ok());
   EXPECT_NEAR(median_depth(session.object(), session.clip()->palms().frames()), 0.035, 1e-3);
@@ -360,9 +355,7 @@ TEST_F(RecordedTest, ACorrectedRecordingsObjectIsAsSoftAndAsFarOnAsItWas) {
   make_stroke("a.jsonl", "dog:alive");
   call_corrected("a.jsonl", "c.jsonl", ",\"softness\":0.006,\"animation_start\":-500000000");
   Session session(session_setup());
-  ASSERT_TRUE(session.show_object("plane").ok());
-  ASSERT_TRUE(session.open_clip(path("c.jsonl")).ok());
-  begin(session);
+  ASSERT_NO_FATAL_FAILURE(play(session, "c.jsonl"));
   EXPECT_EQ(session.softness_m(), 0.006);
   session.seek(40);
   const std::int64_t time_ns = session.clip()->start_ns() + session.clip()->time_ns(40);
