@@ -131,7 +131,7 @@ HandCorrector::HandCorrector(const CorrectorOptions& options) : options_(options
 }
 
 void HandCorrector::set_settle(const SettleOptions& settle) noexcept {
-  NADE_ASSERT(settle.softness_m >= 0.0 && settle.softness_m <= 0.02);
+  NADE_ASSERT(settle.softness_m >= 0.0 && settle.softness_m <= kSoftest_m);
   NADE_ASSERT(settle.softness_depth_m > 0.0);
   NADE_ASSERT(settle.friction.coefficient >= 0.0 && settle.friction.coefficient <= 2.0);
   NADE_ASSERT(settle.friction.kinetic >= 0.0 && settle.friction.kinetic <= 1.0);

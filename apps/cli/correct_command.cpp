@@ -47,10 +47,7 @@ RecordingHeader corrected_header(const RecordingHeader& tracked, const CorrectAr
   json["method"] = method_name(arguments.method);
   json["tool"] = fmt::format("nade {}", NADE_VERSION);
   if (arguments.press_m) json["press"] = *arguments.press_m;
-  const SettleOptions& settle = arguments.method.corrector.settle;
-  if (settle.softness_m > 0.0) json["softness"] = settle.softness_m;
-  if (settle.friction.coefficient > 0.0) json["friction"] = settle.friction.coefficient;
-  header.unknown_json = json.dump();
+  header.unknown_json = with_settle(json.dump(), arguments.method.corrector.settle);
   return header;
 }
 

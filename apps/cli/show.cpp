@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "commands.h"
@@ -13,8 +12,6 @@
 
 namespace nade::cli {
 namespace {
-
-constexpr double kSoftest_m = 0.02;
 
 /// What the headers of the recordings say.
 struct Headers {
@@ -41,10 +38,8 @@ Result<Headers> read_headers(const ShowArguments& arguments) {
     const auto placing = placing_from(header->unknown_json, *path);
     if (!placing) return placing.error();
     if (!headers.placing) headers.placing = *placing;
-    const auto json = nlohmann::json::parse(header->unknown_json, nullptr, false);
-    if (json.is_object() && json.contains("softness") && json["softness"].is_number()) {
-      headers.softness_m = std::clamp(json["softness"].get<double>(), 0.0, kSoftest_m);
-    }
+    const double softness_m = softness_from(header->unknown_json);
+    if (softness_m > 0.0) headers.softness_m = softness_m;
     headers.second_is_corrected = headers.is_corrected;  // which is read first
     headers.is_corrected = is_corrected(*header);
   }

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "nade/eval/press.h"
+#include "nade/eval/recording_pair.h"
 
 namespace nade::viewer {
 namespace {
@@ -24,7 +24,6 @@ constexpr std::int64_t kLeadIn_ns = 1'500'000'000;
 /// So many frames of a recording are caught up with in one frame of the window.
 constexpr std::size_t kCatchUpMax = 240;
 constexpr double kPressAtFirst_m = 0.02;
-constexpr double kSoftest_m = 0.02;
 
 }  // namespace
 
@@ -176,16 +175,14 @@ void Session::begin_clip() {
 Status Session::stand_as_recorded() {
   recorded_.reset();
   recorded_softness_m_ = 0.0;
-  const auto header = nlohmann::json::parse(clip_->header().unknown_json, nullptr, false);
-  if (header.is_object() && header.contains("method")) {
+  const RecordingHeader& header = clip_->header();
+  if (!method_of(header).empty()) {
     method_before_ = std::exchange(setup_.corrector.method, Method::none);
     notices_.push_back(
         fmt::format("{} is corrected already: it is shown as it is, method none", clip_->path()));
-    if (header.contains("softness") && header["softness"].is_number()) {
-      recorded_softness_m_ = std::clamp(header["softness"].get<double>(), 0.0, kSoftest_m);
-    }
+    recorded_softness_m_ = softness_from(header.unknown_json);
   }
-  const auto recorded = placing_from(clip_->header().unknown_json, clip_->path());
+  const auto recorded = placing_from(header.unknown_json, clip_->path());
   if (!recorded) return recorded.error();
   recorded_ = *recorded;
   const bool fits = *recorded && (keep_ == Keep::no || (*recorded)->object == loaded_->spec);

@@ -59,12 +59,8 @@ study::MotionFiles motion_files(const std::string& path, const RecordedAs& as) {
   files.tracked_header.unknown_json = json.dump();
   files.corrected_header = files.tracked_header;
   json["method"] = name_of(as.method);
-  if (as.method == Method::nade) {
-    if (as.settle.softness_m > 0.0) json["softness"] = as.settle.softness_m;
-    const double friction = as.settle.friction.coefficient;
-    if (friction > 0.0) json["friction"] = friction;
-  }
-  files.corrected_header.unknown_json = json.dump();
+  files.corrected_header.unknown_json =
+      as.method == Method::nade ? with_settle(json.dump(), as.settle) : json.dump();
   std::error_code ignored;  // what cannot be taken away is told when it is written
   std::filesystem::remove(files.tracked_path, ignored);
   return files;

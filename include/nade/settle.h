@@ -21,9 +21,12 @@ struct VisibleFriction {
   double longest_lag_m = 0.03;  ///< whatever the depth
 };
 
+/// No object is softer.
+inline constexpr double kSoftest_m = 0.02;
+
 /// What the object under the hand is like.
 struct SettleOptions {
-  /// The skin sinks in this far at the most, metres: 0 for a hard object, up to 0.02.
+  /// The skin sinks in this far at the most, metres: 0 for a hard object, up to `kSoftest_m`.
   double softness_m = 0.0;
   /// Pressing so deep makes it sink by two thirds of that, metres, above 0.
   double softness_depth_m = 0.02;

@@ -264,6 +264,21 @@ std::string with_placing(const std::string& json_object, const ObjectPlacing& pl
   return header.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
+std::string with_settle(const std::string& json_object, const SettleOptions& settle) {
+  auto header = nlohmann::ordered_json::parse(json_object, nullptr, false);
+  NADE_ASSERT(header.is_object());
+  if (settle.softness_m > 0.0) header["softness"] = settle.softness_m;
+  if (settle.friction.coefficient > 0.0) header["friction"] = settle.friction.coefficient;
+  return header.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+double softness_from(const std::string& json_object) {
+  const auto header = nlohmann::json::parse(json_object, nullptr, false);
+  if (!header.is_object() || !header.contains("softness")) return 0.0;
+  const auto& softness = header["softness"];
+  return softness.is_number() ? std::clamp(softness.get<double>(), 0.0, kSoftest_m) : 0.0;
+}
+
 Result<std::optional<ObjectPlacing>> placing_from(const std::string& json_object,
                                                   const std::string& name) {
   if (json_object.empty()) return std::optional<ObjectPlacing>();

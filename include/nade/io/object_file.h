@@ -9,6 +9,7 @@
 
 #include "nade/io/animated_mesh.h"
 #include "nade/io/mesh_file.h"
+#include "nade/settle.h"
 #include "nade/status.h"
 #include "nade/surface.h"
 
@@ -65,6 +66,13 @@ struct ObjectPlacing {
 /// "turn", "scale" and "animation_start" mean none. `name` is what the error calls the recording.
 [[nodiscard]] Result<std::optional<ObjectPlacing>> placing_from(const std::string& json_object,
                                                                 const std::string& name);
+
+/// `json_object` with the keys "softness" and "friction" set, each where it is above 0. Its text
+/// has to be a JSON object.
+[[nodiscard]] std::string with_settle(const std::string& json_object, const SettleOptions& settle);
+
+/// The softness in a header's `unknown_json`, metres, 0 to `kSoftest_m`; 0 where it says none.
+[[nodiscard]] double softness_from(const std::string& json_object);
 
 /// First `inner`, then `outer`.
 [[nodiscard]] Placement composed(const Placement& outer, const Placement& inner);
