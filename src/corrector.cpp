@@ -24,8 +24,8 @@ constexpr double kLongestMotion_m = 0.03;
 /// what it had is over, but no sooner than the second.
 constexpr double kLongestGap_s = 1.0;
 constexpr double kShortestGap_s = 0.1;
-/// A clock that goes back by no more than this was read late before.
-constexpr double kLateClock_s = 0.005;
+/// A clock that goes back by no more than this was read late before, or foretold too far.
+constexpr double kLateClock_s = 0.025;
 /// The mean hand length forgets frames older than about this many.
 constexpr std::int64_t kLengthFrames = 512;
 /// Where so many in a row are all longer, or shorter, by more than this share, it forgets those
@@ -103,7 +103,7 @@ CorrectorOptions paper_literal() {
 
 std::optional<SkinDepths> believable_radii(const HandPose& hand) noexcept {
   const auto [least, most] = std::minmax_element(hand.radius.begin(), hand.radius.end());
-  if (*most - *least < kSameRadius_m) return std::nullopt;
+  if (!(*most - *least >= kSameRadius_m)) return std::nullopt;
   SkinDepths depths;
   for (std::size_t i = 1; i < kPartCount; ++i) {
     const double radius = hand.radius[index_of(joint_of(part_at(i)))];

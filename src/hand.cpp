@@ -79,7 +79,6 @@ bool is_usable(const HandPose& hand) noexcept {
     if (!joint.position.allFinite() || !joint.rotation.coeffs().allFinite()) return false;
     if (std::abs(joint.rotation.squaredNorm() - 1.0) > kUnitTolerance) return false;
     if (!((joint.position - wrist).norm() < kLongestHand_m)) return false;
-    if (!std::isfinite(hand.radius[i])) return false;
   }
   return true;
 }

@@ -84,7 +84,7 @@ std::optional<SurfacePoint> SphereSurface::closest_point(const Vec3& query, doub
 
 Object::Object(const Surface& surface, const Placement& placement, std::uint64_t instance)
     : surface_(&surface), placement_(placement), instance_(instance) {
-  NADE_ASSERT(std::isfinite(placement.scale) && placement.scale >= 0.0);
+  if (!std::isfinite(placement_.scale) || placement_.scale < 0.0) placement_.scale = 0.0;
   // Bit for bit as it is where rounding alone is off; and no number is none of a rotation.
   Quat& rotation = placement_.pose.rotation;
   if (std::abs(rotation.squaredNorm() - 1.0) > kNormalized) rotation.normalize();

@@ -32,9 +32,9 @@ SurfaceGroup::SurfaceGroup(std::vector<Object> members)
 
 void SurfaceGroup::place(std::size_t member, const Placement& placement) noexcept {
   NADE_ASSERT(member < members_.size());
-  Object& moved = members_[member];
-  moved = Object(moved.surface(), placement, moved.identity().instance);
-  placing_ = new_shape();
+  const Object before = members_[member];
+  members_[member] = Object(before.surface(), placement, before.identity().instance);
+  if (members_[member].placement() != before.placement()) placing_ = new_shape();
 }
 
 std::optional<RayHit> SurfaceGroup::first_hit(const Ray& ray) const noexcept {

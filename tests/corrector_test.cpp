@@ -274,6 +274,22 @@ TEST_P(CorrectorOfAnyMethod, TimeThatGoesBackStartsAnew) {
   EXPECT_TRUE(same_bits(result.pose, hand));
 }
 
+/// As where a runtime foretells a frame's display time anew: by a frame or two.
+TEST_P(CorrectorOfAnyMethod, TimeThatGoesBackByTwoFramesDoesNotMoveTheHand) {
+  HandCorrector corrector(options_);
+  std::int64_t time_ns = 0;
+  HandPose drawn;
+  for (int i = 0; i < 60; ++i, time_ns += kFrame_ns) {
+    drawn = corrector.update(pressed_hand(0.03), plane(), time_ns).pose;
+  }
+  time_ns -= 3 * kFrame_ns;
+  for (int i = 0; i < 5; ++i, time_ns += kFrame_ns) {
+    const CorrectedHand& result = corrector.update(pressed_hand(0.03), plane(), time_ns);
+    EXPECT_LT(largest_motion(result.pose, drawn), 0.001) << i;
+    drawn = result.pose;
+  }
+}
+
 TEST_P(CorrectorOfAnyMethod, DegenerateHandsGiveFinitePoses) {
   HandPose point = pressed_hand(0.02);
   for (Pose& joint : point.joints) joint.position = Vec3(0.0, -0.01, 0.0);

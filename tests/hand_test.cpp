@@ -34,9 +34,13 @@ TEST(Hand, NumbersThatAreNotFiniteMakeAHandUnusable) {
   hand = test::sample_hand();
   hand[Joint::index_tip].rotation.coeffs().setZero();
   EXPECT_FALSE(is_usable(hand));
-  hand = test::sample_hand();
-  hand.radius[3] = -std::numeric_limits<double>::infinity();
-  EXPECT_FALSE(is_usable(hand));
+}
+
+/// A device need not know how thick a finger is.
+TEST(Hand, ARadiusThatIsNoNumberDoesNot) {
+  HandPose hand = test::sample_hand();
+  hand.radius[3] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(is_usable(hand));
 }
 
 TEST(Hand, AJointFarFromTheWristMakesAHandUnusable) {

@@ -333,6 +333,17 @@ TEST(MovingObject, AHandComesSlowlyOutOfAnObjectThatAppearsInIt) {
 }
 
 /// Some engines hide what they do not need so, or let it grow from nothing.
+/// As where an animation's key is broken: that frame has no object, the others have one.
+TEST(MovingObject, AnObjectOfNoUsableSizeIsNotThere) {
+  const SphereSurface ball(0.15);
+  const HandPose hand = laid_hand({{0.0, 0.15, 0.0}, Quat::Identity()}, 0.03);
+  for (const double scale : {-1.0, std::nan(""), HUGE_VAL}) {
+    HandCorrector corrector(test::settling());
+    const Object object(ball, {{}, scale});
+    EXPECT_TRUE(test::same_bits(hand, corrector.update(hand, object, 0).pose)) << scale;
+  }
+}
+
 TEST(MovingObject, AnObjectOfScaleZeroIsNotThere) {
   const SphereSurface ball(0.15);
   const HandPose hand = laid_hand({{0.0, 0.15, 0.0}, Quat::Identity()}, 0.03);

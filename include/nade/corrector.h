@@ -79,9 +79,10 @@ class HandCorrector {
   /// status `untracked`. Where no object is near, give `nothing()`: a hand that is not passed is
   /// missing, and jumps when an object comes. Frames in which it is missing are simply not passed:
   /// one that presses on when it is back, within a second, goes on from where it was drawn. Time
-  /// that goes back, or the other hand, starts anew; but back by 5 ms at the most, as where a clock
-  /// is read late, counts as the same time. Once a frame: a second call for the same time counts as
-  /// a frame of a millisecond. Times may be whole milliseconds, and off by a few.
+  /// that goes back, or the other hand, starts anew; but back by 25 ms at the most, as where a
+  /// clock is read late or a frame's display time foretold anew, counts as the same time. Once a
+  /// frame: a second call for the same time counts as a frame of a millisecond. Times may be whole
+  /// milliseconds, and off by a few.
   const CorrectedHand& update(const HandPose& tracked, const Object& object,
                               std::int64_t time_ns) noexcept;
 

@@ -32,6 +32,8 @@ struct Pose {
   Vec3 position = Vec3::Zero();
   Quat rotation = Quat::Identity();
 
+  bool operator==(const Pose&) const = default;
+
   /// A local point in the parent's frame.
   [[nodiscard]] Vec3 apply(const Vec3& point_local) const {
     return rotation * point_local + position;
@@ -53,6 +55,8 @@ struct Pose {
 struct Placement {
   Pose pose;
   double scale = 1.0;
+
+  bool operator==(const Placement&) const = default;
 
   [[nodiscard]] Vec3 to_world(const Vec3& point_local) const {
     return pose.apply(scale * point_local);

@@ -117,7 +117,7 @@ struct HandPose {
   std::array<Pose, kJointCount> joints{};
   /// Joint to skin, metres; 0 where unknown.
   std::array<double, kJointCount> radius{};
-  /// The tracker's own, 0 to 1.
+  /// The tracker's own, 0 to 1. For who records and shows it: a hand is corrected alike at any.
   double confidence = 1.0;
 
   [[nodiscard]] const Pose& operator[](Joint joint) const { return joints[index_of(joint)]; }
@@ -127,9 +127,9 @@ struct HandPose {
   [[nodiscard]] Vec3 back() const { return (*this)[Joint::palm].rotation * Vec3::UnitY(); }
 };
 
-/// Whether joints and radii are finite, rotations are unit, the wrist is within 1000 km of the
-/// origin and no joint half a metre or more from it: what the frame path needs in order to work on
-/// a pose.
+/// Whether joints are finite, rotations are unit, the wrist is within 1000 km of the origin and no
+/// joint half a metre or more from it: what the frame path needs in order to work on a pose. Radii
+/// may be anything.
 [[nodiscard]] bool is_usable(const HandPose& hand) noexcept;
 
 /// Wrist to middle-finger knuckle, metres: the measure of a hand's size.

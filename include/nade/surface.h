@@ -95,8 +95,8 @@ struct ObjectIdentity {
 /// surface. All queries and answers are in world coordinates.
 class Object {
  public:
-  /// `placement.scale` >= 0, where 0 leaves nothing to touch; its rotation is normalized. `surface`
-  /// must outlive the object.
+  /// The rotation of `placement` is normalized. A scale of 0, below it or that is not finite leaves
+  /// nothing to touch, and so does a pose that is not finite. `surface` must outlive the object.
   /// Objects that share one, as two chairs of a kind, are told apart by `instance`, any number:
   /// else a hand that goes over from one to the other would be on one that is suddenly elsewhere.
   explicit Object(const Surface& surface, const Placement& placement = {},

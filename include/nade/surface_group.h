@@ -10,7 +10,8 @@
 namespace nade {
 
 /// Several objects as one: what a hand may touch at the same time, or slide over to, as a ball on a
-/// table. Where they stand is in the group's frame; most simply that is the world's.
+/// table. Where they stand is in the group's frame; most simply that is the world's, or a vehicle's
+/// where they go along with one: what goes by at several metres a second is met anew in each frame.
 ///
 /// A query asks all of them, so give it what is near the hand: within 0.3 m of its palm, or fingers
 /// are in what is not there yet. Solids that overlap are one: outside
@@ -26,8 +27,8 @@ class SurfaceGroup final : public Surface {
   [[nodiscard]] std::span<const Object> members() const { return members_; }
 
   /// Moves, turns or scales a member. A hand on it rides along; while one moves, nothing of the
-  /// surface is remembered from frame to frame. Does not allocate. Not while another thread
-  /// queries.
+  /// surface is remembered from frame to frame. Where it stands already costs nothing. Does not
+  /// allocate. Not while another thread queries.
   void place(std::size_t member, const Placement& placement) noexcept;
 
   [[nodiscard]] std::optional<RayHit> first_hit(const Ray& ray) const noexcept override;
