@@ -57,6 +57,12 @@ class Interruptible {
 
 void say(const std::string& sentence) { std::fprintf(stderr, "nade: %s\n", sentence.c_str()); }
 
+/// A headset, and our session on it, which is the first to go.
+struct Opened {
+  std::unique_ptr<Headset> headset;
+  std::unique_ptr<HeadsetSession> session;
+};
+
 /// One run: what outlives sessions and runtimes, and what is done with them.
 class Loop {
  public:
@@ -69,7 +75,8 @@ class Loop {
  private:
   Status begin(RoomSetup setup, const Headset& headset);
   [[nodiscard]] Result<Headset> find_headset() const;
-  [[nodiscard]] Result<Headset> find_again();
+  [[nodiscard]] Result<Opened> open(std::optional<RoomSetup> setup);
+  [[nodiscard]] Result<Opened> open_again();
   Fate run_session(HeadsetSession& session);
   void show_frame(HeadsetSession& session);
   void draw_eyes(HeadsetSession& session, const TrackedFrame& frame);
@@ -125,12 +132,26 @@ Result<Headset> Loop::find_headset() const {
   return Headset::find(std::array<GraphicsWay, 1>{*run_.graphics});
 }
 
-Result<Headset> Loop::find_again() {
+/// With `setup` the room is made, too: between headset and session, as that has OpenGL's context.
+Result<Opened> Loop::open(std::optional<RoomSetup> setup) {
+  Result<Headset> found = find_headset();
+  if (!found) return found.error();
+  auto headset = std::make_unique<Headset>(std::move(found).value());
+  if (setup) {
+    if (const Status begun = begin(*std::move(setup), *headset); !begun) return begun.error();
+  }
+  Result<std::unique_ptr<HeadsetSession>> session = HeadsetSession::create(*headset, *binding_);
+  if (!session) return session.error();
+  return Opened{std::move(headset), std::move(session).value()};
+}
+
+/// A runtime that has just come back may know of no session yet.
+Result<Opened> Loop::open_again() {
   const auto start = Clock::now();
   while (true) {
     std::this_thread::sleep_for(kBetweenTries);
-    Result<Headset> headset = find_headset();
-    if (headset || wants_out() || Clock::now() - start > kPatience) return headset;
+    Result<Opened> opened = open(std::nullopt);
+    if (opened || wants_out() || Clock::now() - start > kPatience) return opened;
   }
 }
 
@@ -157,23 +178,19 @@ Status Loop::go(RoomSetup setup_once) {
   if (const Status opened = open_outputs(); !opened) return opened;
   std::optional<RoomSetup> setup = std::move(setup_once);
   while (true) {
-    Result<Headset> headset = setup ? find_headset() : find_again();
-    if (!headset) {
+    Result<Opened> opened = setup ? open(std::exchange(setup, std::nullopt)) : open_again();
+    if (!opened) {
       const Status finished = finish_recording();
-      return setup || finished ? Status(headset.error()) : finished;
+      return finished ? Status(opened.error()) : finished;
     }
-    headset_name_ = headset->name();
+    HeadsetSession& session = *opened->session;
+    headset_name_ = opened->headset->name();
     say(headset_name_);
-    if (setup) {
-      if (Status begun = begin(*std::exchange(setup, std::nullopt), *headset); !begun) return begun;
-    }
-    Result<std::unique_ptr<HeadsetSession>> session = HeadsetSession::create(*headset, *binding_);
-    if (!session) return session.error();
     room_->restart();
-    const Fate fate = run_session(**session);
+    const Fate fate = run_session(session);
     if (fate == Fate::failed) {
       static_cast<void>(finish_recording());
-      return Error{ErrorCode::not_found, (*session)->complaint()};
+      return Error{ErrorCode::not_found, session.complaint()};
     }
     if (fate == Fate::ended || wants_out()) break;
     say(fate == Fate::session_lost
