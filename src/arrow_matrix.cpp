@@ -1,6 +1,7 @@
 #include "arrow_matrix.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 namespace nade {
 
@@ -45,11 +46,9 @@ HandFreedoms ArrowMatrix::solve(const HandFreedoms& right) const noexcept {
   std::array<Eigen::Matrix<double, 4, 6>, kDigitCount> inverse_coupling;
   std::array<Eigen::Vector4d, kDigitCount> inverse_right;
   for (std::size_t d = 0; d < kDigitCount; ++d) {
-    const Eigen::LLT<Eigen::Matrix4d> factor(digit[d]);
-    for (Eigen::Index i = 0; i < 6; ++i) {  // a column at a time is unrolled, a matrix is not
-      inverse_coupling[d].col(i) = factor.solve(coupling[d].row(i).transpose());
-    }
-    inverse_right[d] = factor.solve(right.segment<4>(first_freedom(d)));
+    const Eigen::Matrix4d inverse = digit[d].inverse();
+    inverse_coupling[d].noalias() = inverse * coupling[d].transpose();
+    inverse_right[d].noalias() = inverse * right.segment<4>(first_freedom(d));
     reduced.noalias() -= coupling[d] * inverse_coupling[d];
     wrist_right.noalias() -= coupling[d] * inverse_right[d];
   }

@@ -49,7 +49,7 @@ Vec3 for_each_arm(const PosedHand& posed, const FleshPoint& point, std::size_t d
   Vec3 position = Vec3::Zero();
   for (std::size_t k = 0; k < point.joints.size() && point.weights[k] > 0.0; ++k) {
     const std::size_t joint = point.joints[k];
-    const Vec3 carried = posed.flesh.linear[joint] * point.local[k] + posed.flesh.origin[joint];
+    const Vec3 carried = posed.flesh.carried(joint, point.local[k]).head<3>();
     position += point.weights[k] * carried;
     if (digit == kDigitCount || kCarriers[joint].digit != digit) continue;
     const DigitAxes& axes = posed.axes[digit];
@@ -79,8 +79,11 @@ HandModel measure_model(const HandPose& tracked, double scale) noexcept {
 PosedFlesh pose_flesh(const HandPose& hand, double scale) noexcept {
   PosedFlesh flesh;
   for (std::size_t i = 0; i < kJointCount; ++i) {
-    flesh.linear[i] = scale * hand.joints[i].rotation.toRotationMatrix();
-    flesh.origin[i] = hand.joints[i].position;
+    const Pose& joint = hand.joints[i];
+    flesh.carry[i].topLeftCorner<3, 3>() = scale * joint.rotation.toRotationMatrix();
+    flesh.carry[i].topRightCorner<3, 1>() = joint.position;
+    flesh.carry[i].row(3).setZero();
+    flesh.origin[i] = joint.position;
   }
   return flesh;
 }

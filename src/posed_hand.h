@@ -19,16 +19,21 @@ struct HandModel {
 
 /// Where the joints carry the flesh.
 struct PosedFlesh {
-  std::array<Eigen::Matrix3d, kJointCount> linear{};  ///< rotation times scale
+  /// Rotation times scale, and the origin: in fours, which processors add at once.
+  std::array<Eigen::Matrix4d, kJointCount> carry{};
   std::array<Vec3, kJointCount> origin{};
 
+  [[nodiscard]] Eigen::Vector4d carried(std::size_t joint, const Vec3& local) const noexcept {
+    const Eigen::Matrix4d& by = carry[joint];
+    return by.col(0) * local.x() + by.col(1) * local.y() + by.col(2) * local.z() + by.col(3);
+  }
+
   [[nodiscard]] Vec3 position(const FleshPoint& point) const noexcept {
-    Vec3 sum = Vec3::Zero();
+    Eigen::Vector4d sum = Eigen::Vector4d::Zero();
     for (std::size_t k = 0; k < point.joints.size() && point.weights[k] > 0.0; ++k) {
-      const std::size_t joint = point.joints[k];
-      sum += point.weights[k] * (linear[joint] * point.local[k] + origin[joint]);
+      sum += point.weights[k] * carried(point.joints[k], point.local[k]);
     }
-    return sum;
+    return sum.head<3>();
   }
 };
 [[nodiscard]] PosedFlesh pose_flesh(const HandPose& hand, double scale) noexcept;

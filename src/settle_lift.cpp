@@ -82,7 +82,7 @@ void climb(const TouchSearch& search, Digit digit, const Held& held, const Conta
 void lift_over(const PosedHand& posed, const TouchSearch& search, std::vector<ContactRow>& rows,
                Springs& springs) noexcept {
   // The push would not do for what is up: it turns to what holds the hand back.
-  const Vec3 back = search.tracked.linear[index_of(Joint::palm)].col(1).normalized();
+  const Vec3 back = search.tracked.carry[index_of(Joint::palm)].col(1).head<3>().normalized();
   const double along = back.dot(search.frame.col(2));
   const Vec3 up = std::copysign(1.0, along) * back;
   const double flat = smoothstep(kSideways, kFlat, std::abs(along));

@@ -14,6 +14,9 @@ namespace {
 
 constexpr int kMostSteps = 16;
 constexpr int kMostSearches = 24;
+/// Along a Newton direction, as shares of it.
+constexpr double kFarthest = 2.0;
+constexpr double kNoSlope = 1e-9;
 /// A change of every freedom by less than this, in metres or radians, is none.
 constexpr double kSmallestChange = 1e-8;
 constexpr double kCushionStiffness = 24143.0;
@@ -59,7 +62,7 @@ class Descent {
   }
 
   /// Toward the least cost of the quadratic that holds here.
-  [[nodiscard]] HandFreedoms newton_direction() const {
+  [[nodiscard]] HandFreedoms newton_direction() {
     HandFreedoms diagonal = HandFreedoms::Zero();
     HandFreedoms force = -spring_slope();
     for (const Walls* walls : {&problem_.range, &problem_.rate}) {
@@ -73,9 +76,9 @@ class Descent {
     hessian.add_diagonal(diagonal);
     for (std::size_t i = 0; i < count_; ++i) {
       const ContactRow& row = problem_.rows[i];
-      const double push = force_at(row, gaps_[i]);
+      const double push = forces_[i] = force_at(row, gaps_[i]);
+      const double stiffness = stiffnesses_[i] = stiffness_at(row, gaps_[i]);
       if (push == 0.0) continue;
-      const double stiffness = stiffness_at(row, gaps_[i]);
       if (stiffness != 0.0) hessian.add(row, stiffness);
       force.head<6>() += push * row.wrist;
       if (row.digit) force.segment<4>(first_freedom(index_of(*row.digit))) += push * row.bend;
@@ -83,7 +86,7 @@ class Descent {
     return hessian.solve(force);
   }
 
-  /// Goes to the least cost along a direction; gives how far along that is.
+  /// Goes to the least cost along the Newton direction; gives how far along that is.
   double advance(const HandFreedoms& direction) {
     for (std::size_t i = 0; i < count_; ++i) changes_[i] = along(problem_.rows[i], direction);
     const double length = best_length(direction);
@@ -104,10 +107,29 @@ class Descent {
     double slope;
     double bend;
   };
+  /// That of the springs, and of the rows that push alike all the way; the others are `bent_`.
+  [[nodiscard]] LineSlope even_slope(const HandFreedoms& direction) {
+    LineSlope even{spring_slope().dot(direction),
+                   direction.dot(problem_.springs.stiffness.times(direction))};
+    bent_count_ = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+      const ContactRow& row = problem_.rows[i];
+      const double last_m = gaps_[i] + kFarthest * changes_[i];
+      // A pull has the same stiffness, none, on both sides of where it grows.
+      if (row.kind == RowKind::draw_near || stiffness_at(row, last_m) != stiffnesses_[i]) {
+        bent_[bent_count_++] = static_cast<std::uint16_t>(i);
+        continue;
+      }
+      even.slope -= forces_[i] * changes_[i];
+      even.bend += stiffnesses_[i] * changes_[i] * changes_[i];
+    }
+    return even;
+  }
+
   [[nodiscard]] LineSlope slope_at(double length, const HandFreedoms& direction,
-                                   const LineSlope& springs) const {
+                                   const LineSlope& even) const {
     const HandFreedoms step = step_ + length * direction;
-    LineSlope result{springs.slope + length * springs.bend, springs.bend};
+    LineSlope result{even.slope + length * even.bend, even.bend};
     for (const Walls* walls : {&problem_.range, &problem_.rate}) {
       const HandFreedoms over = beyond(*walls, step);
       for (Eigen::Index i = 0; i < kHandFreedoms; ++i) {
@@ -116,7 +138,8 @@ class Descent {
         result.bend += walls->stiffness[i] * direction[i] * direction[i];
       }
     }
-    for (std::size_t i = 0; i < count_; ++i) {
+    for (std::size_t k = 0; k < bent_count_; ++k) {
+      const std::size_t i = bent_[k];
       const double gap_m = gaps_[i] + length * changes_[i];
       const ContactRow& row = problem_.rows[i];
       result.slope -= force_at(row, gap_m) * changes_[i];
@@ -126,16 +149,13 @@ class Descent {
   }
 
   /// Where the slope along the direction is zero: it grows, piecewise linearly.
-  [[nodiscard]] double best_length(const HandFreedoms& direction) const {
-    constexpr double kFarthest = 2.0;
-    constexpr double kNoSlope = 1e-9;
-    const LineSlope springs{spring_slope().dot(direction),
-                            direction.dot(problem_.springs.stiffness.times(direction))};
+  [[nodiscard]] double best_length(const HandFreedoms& direction) {
+    const LineSlope even = even_slope(direction);
     double low = 0.0;
     double high = kFarthest;
     double length = 1.0;
     for (int i = 0; i < kMostSearches; ++i) {
-      const LineSlope at = slope_at(length, direction, springs);
+      const LineSlope at = slope_at(length, direction, even);
       if (std::abs(at.slope) <= kNoSlope * at.bend) break;
       (at.slope < 0.0 ? low : high) = length;
       const double next = length - at.slope / at.bend;
@@ -147,6 +167,10 @@ class Descent {
   const SettleProblem& problem_;
   std::array<double, kMostContactRows> gaps_;
   std::array<double, kMostContactRows> changes_;
+  std::array<double, kMostContactRows> forces_;
+  std::array<double, kMostContactRows> stiffnesses_;
+  std::array<std::uint16_t, kMostContactRows> bent_;
+  std::size_t bent_count_ = 0;
   std::size_t count_;
   HandFreedoms step_;
 };
