@@ -37,7 +37,7 @@ constexpr double kLastRowReach_m = 0.002;
 constexpr double kWallStiffness = 1e5;
 /// A joint's mass: a spring of this over the square of the frame's seconds keeps it going. Less in
 /// the air, where the hand comes back to the tracked one.
-constexpr double kInertia = 1.72;
+constexpr double kInertia = 1.85;
 constexpr double kInertiaInAir = 1.3;
 /// What the tracked joints do against the object is smoothed over this time.
 constexpr double kVelocityTime_s = 0.016;
@@ -52,10 +52,11 @@ constexpr double kPressesOn_m = 0.08;
 
 constexpr int kRounds = 3;
 constexpr int kFirstRounds = 40;
-/// A round that moves no skin farther than this is the last.
-constexpr double kSettled_m = 0.0004;
+/// A round is the last in which no skin that had no row can have come to touch, and whose step is
+/// no longer than this: what the rows say is good for no longer ones.
+constexpr double kLongestStep_m = 0.005;
 /// A hand that is found anew rests for long where it is put: each round's steps are shorter by this
-/// factor, and the last is a small one.
+/// factor, and the last moves no skin farther than so.
 constexpr double kShorterSteps = 0.85;
 constexpr double kFirstSettled_m = 1e-4;
 /// In the air, a correction smaller than this is over.
@@ -108,7 +109,7 @@ class Settling {
       find_push(forces.push);
       correction_ = corrected;
       posed = next;
-      if (reach_of(step) < (fresh_ ? kFirstSettled_m : kSettled_m)) break;
+      if (reach_of(step) < settled_m()) break;
     }
     return finish(posed.hand);
   }
@@ -124,6 +125,10 @@ class Settling {
   /// So firmly that neither a pull nor a climb overcomes it.
   [[nodiscard]] double firmness_of_hold() const {
     return std::max(search_.strengths[kNearestSkin], firmness_of_climb(memory_.rows));
+  }
+  /// A round that moves no skin farther is the last.
+  [[nodiscard]] double settled_m() const {
+    return fresh_ ? kFirstSettled_m : std::min(search_.row_reach_m, kLongestStep_m);
   }
   [[nodiscard]] bool is_in_air() const {
     return !fresh_ && (memory_.contact.push.isZero() || is_held_up(memory_));
