@@ -83,7 +83,6 @@ PosedFlesh pose_flesh(const HandPose& hand, double scale) noexcept {
     flesh.carry[i].topLeftCorner<3, 3>() = scale * joint.rotation.toRotationMatrix();
     flesh.carry[i].topRightCorner<3, 1>() = joint.position;
     flesh.carry[i].row(3).setZero();
-    flesh.origin[i] = joint.position;
   }
   return flesh;
 }

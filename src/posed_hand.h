@@ -21,7 +21,10 @@ struct HandModel {
 struct PosedFlesh {
   /// Rotation times scale, and the origin: in fours, which processors add at once.
   std::array<Eigen::Matrix4d, kJointCount> carry{};
-  std::array<Vec3, kJointCount> origin{};
+
+  [[nodiscard]] Vec3 origin(std::size_t joint) const noexcept {
+    return carry[joint].col(3).head<3>();
+  }
 
   [[nodiscard]] Eigen::Vector4d carried(std::size_t joint, const Vec3& local) const noexcept {
     const Eigen::Matrix4d& by = carry[joint];

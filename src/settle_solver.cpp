@@ -64,7 +64,8 @@ class Descent {
   /// Toward the least cost of the quadratic that holds here.
   [[nodiscard]] HandFreedoms newton_direction() {
     HandFreedoms diagonal = HandFreedoms::Zero();
-    HandFreedoms force = -spring_slope();
+    spring_slope_ = problem_.springs.stiffness.times(step_) - problem_.springs.force;
+    HandFreedoms force = -spring_slope_;
     for (const Walls* walls : {&problem_.range, &problem_.rate}) {
       const HandFreedoms over = beyond(*walls, step_);
       for (Eigen::Index i = 0; i < kHandFreedoms; ++i) {
@@ -98,10 +99,6 @@ class Descent {
   [[nodiscard]] const HandFreedoms& step() const { return step_; }
 
  private:
-  [[nodiscard]] HandFreedoms spring_slope() const {
-    return problem_.springs.stiffness.times(step_) - problem_.springs.force;
-  }
-
   /// First and second derivative of the cost along the direction.
   struct LineSlope {
     double slope;
@@ -109,7 +106,7 @@ class Descent {
   };
   /// That of the springs, and of the rows that push alike all the way; the others are `bent_`.
   [[nodiscard]] LineSlope even_slope(const HandFreedoms& direction) {
-    LineSlope even{spring_slope().dot(direction),
+    LineSlope even{spring_slope_.dot(direction),
                    direction.dot(problem_.springs.stiffness.times(direction))};
     bent_count_ = 0;
     for (std::size_t i = 0; i < count_; ++i) {
@@ -173,6 +170,7 @@ class Descent {
   std::size_t bent_count_ = 0;
   std::size_t count_;
   HandFreedoms step_;
+  HandFreedoms spring_slope_;  ///< at the step
 };
 
 }  // namespace

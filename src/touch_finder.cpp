@@ -71,9 +71,10 @@ constexpr double kStretch = 1.3;
 void count_travel(const PosedFlesh& flesh, SettleMemory& memory) {
   double farthest = 0.0;
   for (std::size_t i = 0; i < kJointCount; ++i) {
-    farthest = std::max(farthest, (flesh.origin[i] - memory.joints[i]).squaredNorm());
+    const Vec3 origin = flesh.origin(i);
+    farthest = std::max(farthest, (origin - memory.joints[i]).squaredNorm());
+    memory.joints[i] = origin;
   }
-  memory.joints = flesh.origin;
   memory.travel_m += kStretch * std::sqrt(farthest);
 }
 
@@ -328,7 +329,7 @@ void add_pulls(const TouchSearch& search, const PosedHand& posed, const PatchTou
 double farthest_way(const TouchSearch& search, const PosedHand& posed) {
   double farthest_m = 0.0;
   for (std::size_t i = 0; i < kJointCount && search.before; ++i) {
-    const Vec3 way = posed.flesh.origin[i] - search.before->origin[i];
+    const Vec3 way = posed.flesh.origin(i) - search.before->origin(i);
     farthest_m = std::max(farthest_m, landing_part(search, way));
   }
   return kStretch * farthest_m;

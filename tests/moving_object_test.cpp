@@ -332,7 +332,6 @@ TEST(MovingObject, AHandComesSlowlyOutOfAnObjectThatAppearsInIt) {
   EXPECT_LT(result.deepest_m, 0.001);
 }
 
-/// Some engines hide what they do not need so, or let it grow from nothing.
 /// As where an animation's key is broken: that frame has no object, the others have one.
 TEST(MovingObject, AnObjectOfNoUsableSizeIsNotThere) {
   const SphereSurface ball(0.15);
@@ -344,6 +343,7 @@ TEST(MovingObject, AnObjectOfNoUsableSizeIsNotThere) {
   }
 }
 
+/// Some engines hide what they do not need so, or let it grow from nothing.
 TEST(MovingObject, AnObjectOfScaleZeroIsNotThere) {
   const SphereSurface ball(0.15);
   const HandPose hand = laid_hand({{0.0, 0.15, 0.0}, Quat::Identity()}, 0.03);
