@@ -167,10 +167,13 @@ LeverGrowth lever_growth(const PosedHand& posed, const ContactRow& row,
     // A joint's arms come one after the other, from the base on.
     const auto f = static_cast<std::size_t>(arm.freedom);
     motions[f] = arm.axis.cross(arm.reach);
-    for (std::size_t outer = 0; outer <= f; ++outer) {
-      const Vec3& axis = posed.axes[digit].axis[outer];
-      growth.bend(static_cast<Eigen::Index>(outer), arm.freedom) +=
-          arm.share * growth_of(axis, motions[outer], motions[f]);
+    for (std::size_t other = 0; other <= f; ++other) {
+      // A base abducts within its flexion; else what is nearer to the wrist is the outer one.
+      const bool at_base = other == 0 && f == 1;
+      const std::size_t outer = at_base ? f : other;
+      const std::size_t inner = at_base ? other : f;
+      growth.bend(static_cast<Eigen::Index>(other), arm.freedom) +=
+          arm.share * growth_of(posed.axes[digit].axis[outer], motions[outer], motions[inner]);
     }
   });
   growth.bend = Eigen::Matrix4d(growth.bend.selfadjointView<Eigen::Upper>());
