@@ -97,7 +97,22 @@ TEST(Metrics, TableHasTheKeysOfTheContract) {
                                        "bend_added_median_deg",
                                        "bend_added_p95_deg",
                                        "limit_violation_max_deg",
-                                       "curl_kept"};
+                                       "curl_kept",
+                                       "print_share",
+                                       "hover_mm",
+                                       "heel_share",
+                                       "excess_max_mm",
+                                       "excess_mean_mm",
+                                       "along_p95_mm",
+                                       "free_max_mm",
+                                       "turn_median_deg",
+                                       "turn_p95_deg",
+                                       "thumb_open_max_deg",
+                                       "overlap_p99_mm",
+                                       "jolt_p999_mm",
+                                       "tremble_mm",
+                                       "own_jolt_p999_mm",
+                                       "own_tremble_mm"};
   EXPECT_EQ(keys, expected);
 }
 

@@ -33,10 +33,23 @@ std::string met_of(const BenchFigure& figure, const BenchSummary& summary) {
   return fmt::format("{}/{}", summary.met, summary.measured);
 }
 
+/// By how much those miss the target, in the mean, that do.
+std::string short_of(const BenchFigure& figure, const BenchSummary& summary) {
+  if (!has_target(figure.target) || summary.met == summary.measured) return "";
+  return shown(summary.shortfall);
+}
+
 std::string title_of(const BenchFigure& figure) {
   std::string title = figure.key;
   if (has_target(figure.target)) title += fmt::format(" ({})", shown(figure.target));
   return title;
+}
+
+/// How far a value is from its target, at least 0.
+double shortfall_of(const MetricTarget& target, double value) {
+  const double below = target.at_least ? *target.at_least - value : 0.0;
+  const double above = target.at_most ? value - *target.at_most : 0.0;
+  return std::max({0.0, below, above});
 }
 
 /// The cases in which a method misses a figure's target, the worst first, as "value case; ...".
@@ -86,10 +99,14 @@ std::optional<BenchSummary> summary_of(const BenchReport& report, std::size_t me
       summary.worst = *value;
       summary.worst_case = i;
     }
+    summary.shortfall += shortfall_of(figure.target, *value);
     values.push_back(*value);
   }
   if (values.empty()) return std::nullopt;
   summary.measured = values.size();
+  if (summary.met < summary.measured) {
+    summary.shortfall /= static_cast<double>(summary.measured - summary.met);
+  }
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
   std::nth_element(values.begin(), middle, values.end());
   summary.median = *middle;
@@ -99,8 +116,8 @@ std::optional<BenchSummary> summary_of(const BenchReport& report, std::size_t me
 std::string as_text(const BenchReport& report) {
   std::string text;
   auto out = std::back_inserter(text);
-  fmt::format_to(out, "{} cases\n\n{:<30}{:<14}{:>10}{:>12}{:>10}  {}\n", report.cases.size(),
-                 "metric", "method", "median", "worst", "met", "worst case");
+  fmt::format_to(out, "{} cases\n\n{:<30}{:<14}{:>10}{:>12}{:>10}{:>10}  {}\n", report.cases.size(),
+                 "metric", "method", "median", "worst", "met", "short", "worst case");
   for (const BenchFigure& figure : bench_figures()) {
     // The target stands under the name.
     std::vector<std::string> titles{
@@ -110,8 +127,9 @@ std::string as_text(const BenchReport& report) {
       const auto summary = summary_of(report, m, figure);
       fmt::format_to(out, "{:<30}{:<14}", titles[m], report.methods[m]);
       if (summary) {
-        fmt::format_to(out, "{:>10}{:>12}{:>10}  {}", shown(summary->median), shown(summary->worst),
-                       met_of(figure, *summary), report.cases[summary->worst_case]);
+        fmt::format_to(out, "{:>10}{:>12}{:>10}{:>10}  {}", shown(summary->median),
+                       shown(summary->worst), met_of(figure, *summary), short_of(figure, *summary),
+                       report.cases[summary->worst_case]);
       } else {
         fmt::format_to(out, "{:>10}", "-");
       }
@@ -125,7 +143,7 @@ std::string as_markdown(const BenchReport& report) {
   const std::vector<BenchFigure> figures = bench_figures();
   std::string text;
   auto out = std::back_inserter(text);
-  fmt::format_to(out, "| {} cases: median, worst (target met in) |", report.cases.size());
+  fmt::format_to(out, "| {} cases: median, worst (target met in; short by) |", report.cases.size());
   for (const std::string& method : report.methods) fmt::format_to(out, " {} |", method);
   text += "\n|---|";
   for (std::size_t m = 0; m < report.methods.size(); ++m) text += "--:|";
@@ -138,7 +156,9 @@ std::string as_markdown(const BenchReport& report) {
         text += " - |";
         continue;
       }
-      const std::string met = met_of(figure, *summary);
+      std::string met = met_of(figure, *summary);
+      const std::string missing = short_of(figure, *summary);
+      if (!missing.empty()) met += "; " + missing;
       fmt::format_to(out, " {}, {}{} |", shown(summary->median), shown(summary->worst),
                      met.empty() ? "" : " (" + met + ")");
     }
@@ -201,7 +221,10 @@ std::string as_json(const BenchReport& report) {
                {"worst", summary->worst},
                {"worst_case", report.cases[summary->worst_case]},
                {"measured", summary->measured}};
-      if (has_target(figure.target)) entry["met"] = summary->met;
+      if (has_target(figure.target)) {
+        entry["met"] = summary->met;
+        entry["shortfall"] = summary->shortfall;
+      }
       Json& values = entry["values"] = Json::array();
       for (std::size_t i = 0; i < report.cases.size(); ++i) {
         const std::optional<double> value = figure.of(report.at(i, m));

@@ -39,6 +39,7 @@ struct BenchFigure {
 struct BenchSummary {
   std::size_t measured = 0;  ///< cases that have a value
   std::size_t met = 0;       ///< of those with a value; 0 without a target
+  double shortfall = 0.0;    ///< mean of how far those are from the target that miss it
   double median = 0.0;
   double worst = 0.0;
   std::size_t worst_case = 0;

@@ -14,7 +14,7 @@ constexpr MetricTarget between(double low, double high) { return {low, high}; }
 constexpr double kZeroLag_ms = 0.5;
 constexpr double kZeroAngle_deg = 0.05;
 
-constexpr std::array<MetricInfo, 17> kTable{{
+constexpr std::array<MetricInfo, 32> kTable{{
     {"penetration_max_mm", "mm", &Metrics::penetration_max_mm, at_most(2.0)},
     {"penetration_p99_mm", "mm", &Metrics::penetration_p99_mm, no_target()},
     {"penetration_mean_mm", "mm", &Metrics::penetration_mean_mm, at_most(0.3)},
@@ -32,6 +32,21 @@ constexpr std::array<MetricInfo, 17> kTable{{
     {"bend_added_p95_deg", "deg", &Metrics::bend_added_p95_deg, no_target()},
     {"limit_violation_max_deg", "deg", &Metrics::limit_violation_max_deg, at_most(kZeroAngle_deg)},
     {"curl_kept", "", &Metrics::curl_kept, at_least(0.5)},
+    {"print_share", "", &Metrics::print_share, no_target()},
+    {"hover_mm", "mm", &Metrics::hover_mm, no_target()},
+    {"heel_share", "", &Metrics::heel_share, no_target()},
+    {"excess_max_mm", "mm", &Metrics::excess_max_mm, at_most(1.5)},
+    {"excess_mean_mm", "mm", &Metrics::excess_mean_mm, at_most(0.3)},
+    {"along_p95_mm", "mm", &Metrics::along_p95_mm, at_most(25.0)},
+    {"free_max_mm", "mm", &Metrics::free_max_mm, at_most(2.0)},
+    {"turn_median_deg", "deg", &Metrics::turn_median_deg, at_most(15.0)},
+    {"turn_p95_deg", "deg", &Metrics::turn_p95_deg, at_most(45.0)},
+    {"thumb_open_max_deg", "deg", &Metrics::thumb_open_max_deg, at_most(60.0)},
+    {"overlap_p99_mm", "mm", &Metrics::overlap_p99_mm, at_most(2.0)},
+    {"jolt_p999_mm", "mm", &Metrics::jolt_p999_mm, no_target()},
+    {"tremble_mm", "mm", &Metrics::tremble_mm, no_target()},
+    {"own_jolt_p999_mm", "mm", &Metrics::own_jolt_p999_mm, no_target()},
+    {"own_tremble_mm", "mm", &Metrics::own_tremble_mm, no_target()},
 }};
 
 }  // namespace

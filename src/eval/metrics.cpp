@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "bend_meter.h"
+#include "digit_meter.h"
 #include "linkage_meter.h"
+#include "look_meter.h"
 #include "motion_meter.h"
 #include "nade/assert.h"
 #include "nade/eval/quantile.h"
@@ -35,7 +37,9 @@ struct MetricsMeter::Impl {
   Impl(const HandMesh& mesh, const MetricsOptions& options)
       : side(mesh.side),
         tracked_probe(mesh, options.hand_scale),
-        corrected_probe(mesh, options.hand_scale) {}
+        corrected_probe(mesh, options.hand_scale),
+        look(mesh, options.hand_scale),
+        digits(mesh, options.hand_scale) {}
 
   [[nodiscard]] double take_skin(const SkinReading& corrected);
   [[nodiscard]] std::optional<double> take_gaps(const SkinReading& tracked,
@@ -57,6 +61,8 @@ struct MetricsMeter::Impl {
   LinkageMeter linkage;
   MotionMeter motion;
   BendMeter bend;
+  LookMeter look;
+  DigitMeter digits;
 };
 
 double MetricsMeter::Impl::take_skin(const SkinReading& corrected) {
@@ -100,6 +106,7 @@ void MetricsMeter::Impl::break_off() {
   linkage.break_off();
   motion.break_off();
   bend.break_off();
+  look.break_off();
 }
 
 MetricsMeter::MetricsMeter(const HandMesh& mesh, const MetricsOptions& options)
@@ -123,13 +130,15 @@ FrameReading MetricsMeter::add(std::int64_t time_ns, const HandPose& tracked,
   if (!goes_on) meter.break_off();
   ++meter.frames;
   FrameReading reading;
-  if (const auto pop_m = meter.motion.add(tracked, corrected)) reading.pop_mm = 1e3 * *pop_m;
   const SkinReading tracked_skin = meter.tracked_probe.read(tracked, object);
-  const bool pressing = tracked_skin.lowest < -kPressing_m;
-  const BendMeter::FrameResult bend =
-      meter.bend.add(tracked, corrected, pressing ? Pressing::yes : Pressing::no);
+  const Pressing pressing = tracked_skin.lowest < -kPressing_m ? Pressing::yes : Pressing::no;
+  const auto pop_m = meter.motion.add(time_ns, tracked, corrected, pressing);
+  if (pop_m) reading.pop_mm = 1e3 * *pop_m;
+  meter.look.add({time_ns, tracked, corrected, tracked_skin.lowest, pressing}, object);
+  meter.digits.add(tracked, corrected);
+  const BendMeter::FrameResult bend = meter.bend.add(tracked, corrected, pressing);
   reading.bend_added_deg = bend.added_median_deg;
-  if (pressing) {
+  if (pressing == Pressing::yes) {
     const SkinReading corrected_skin = meter.corrected_probe.read(corrected, object);
     reading.penetration_mm = meter.take_skin(corrected_skin);
     reading.part_gap_mm = meter.take_gaps(tracked_skin, corrected_skin, bend.curling);
@@ -151,6 +160,8 @@ void MetricsMeter::merge(const MetricsMeter& other) {
   impl_->linkage.merge(from.linkage);
   impl_->motion.merge(from.motion);
   impl_->bend.merge(from.bend);
+  impl_->look.merge(from.look);
+  impl_->digits.merge(from.digits);
   impl_->break_off();
 }
 
@@ -184,6 +195,23 @@ Metrics MetricsMeter::finish() const {
   metrics.bend_added_p95_deg = bend.added_p95_deg;
   metrics.limit_violation_max_deg = bend.limit_violation_max_deg;
   metrics.curl_kept = bend.curl_kept;
+  metrics.jolt_p999_mm = motion.jolt_p999_mm;
+  metrics.tremble_mm = motion.tremble_mm;
+  metrics.own_jolt_p999_mm = motion.own_jolt_p999_mm;
+  metrics.own_tremble_mm = motion.own_tremble_mm;
+  const Look look = meter.look.finish();
+  metrics.print_share = look.print_share;
+  metrics.hover_mm = look.hover_mm;
+  metrics.heel_share = look.heel_share;
+  metrics.excess_max_mm = look.excess_max_mm;
+  metrics.excess_mean_mm = look.excess_mean_mm;
+  metrics.along_p95_mm = look.along_p95_mm;
+  metrics.free_max_mm = look.free_max_mm;
+  metrics.turn_median_deg = look.turn_median_deg;
+  metrics.turn_p95_deg = look.turn_p95_deg;
+  const DigitsApart digits = meter.digits.finish();
+  metrics.thumb_open_max_deg = digits.thumb_open_max_deg;
+  metrics.overlap_p99_mm = digits.overlap_p99_mm;
   return metrics;
 }
 

@@ -260,7 +260,7 @@ class Report {
       return;
     }
     add("Of the drawn hand in {} recorded trials: median [quartiles] over trials, measured as "
-        "`nade measure` does (docs/method.md, Metrics). Skin inside the object leaves no gap, so "
+        "`nade measure` does (docs/metrics.md). Skin inside the object leaves no gap, so "
         "penetration and gap belong together.{}\n\n| object | method | trials |",
         content_.contact.trials.size(), data().simulated ? " SIMULATED." : "");
     for (const MetricInfo& info : reported_metrics()) add(" `{}` |", info.key);

@@ -12,7 +12,7 @@
 namespace nade {
 
 /// How well a corrected hand does against its tracked one. The members bear the names of the
-/// metrics; docs/method.md, "Metrics", says what each means. No value where there was nothing to
+/// metrics; docs/metrics.md says what each means. No value where there was nothing to
 /// measure (no pressing frame, no motion).
 struct Metrics {
   std::size_t frames = 0;           ///< in which the hand was tracked
@@ -37,6 +37,21 @@ struct Metrics {
   std::optional<double> bend_added_p95_deg;
   std::optional<double> limit_violation_max_deg;
   std::optional<double> curl_kept;
+  std::optional<double> print_share;
+  std::optional<double> hover_mm;
+  std::optional<double> heel_share;
+  std::optional<double> excess_max_mm;
+  std::optional<double> excess_mean_mm;
+  std::optional<double> along_p95_mm;
+  std::optional<double> free_max_mm;
+  std::optional<double> turn_median_deg;
+  std::optional<double> turn_p95_deg;
+  std::optional<double> thumb_open_max_deg;
+  std::optional<double> overlap_p99_mm;
+  std::optional<double> jolt_p999_mm;
+  std::optional<double> tremble_mm;
+  std::optional<double> own_jolt_p999_mm;
+  std::optional<double> own_tremble_mm;
 };
 
 /// What a metric has to reach.
