@@ -100,9 +100,6 @@ TEST_F(StudyCommand, MisuseIsNamed) {
   expect_misuse(nade("study run plan.json --participant P9 --headless --speed nan"),
                 "--speed: expected a number from 0.1 to 100, found 'nan'");
   expect_misuse(nade("study simulate plan.json -d other --motion nan"), "--motion: expected");
-#ifdef NADE_TEST_VIEWER
-  expect_misuse(nade("study run plan.json --participant P9 --headless"), "expected --script FILE");
-#endif
   EXPECT_EQ(nade("study").status, 2);
   EXPECT_EQ(nade("study run plan.json").status, 2);
   ASSERT_EQ(shell("sed -i 's/\"trial_s\": 30.0/\"trial_s\": -1/' plan.json").status, 0);
