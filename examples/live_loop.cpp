@@ -1,6 +1,6 @@
 // nade in a live frame loop: the tracker calls back with a hand, the loop draws a corrected one.
 // Here the tracker is made up (a flat hand that strokes along a table, pressing into it) and
-// drawing is printing; the four lines in `on_hand` are what a program of yours would keep.
+// drawing is printing; what `main` makes, and its call of `update`, a program of yours would keep.
 
 #include <array>
 #include <cmath>

@@ -101,6 +101,62 @@ TEST_F(StudyAnalyseCommand, ADamagedRecordingIsLeftOutAndNamed) {
   EXPECT_NE(report.find(damaged), std::string::npos);
 }
 
+/// What gnuplot, a shell or a number's format would read as more than a text.
+constexpr const char* kHostile =
+    R"(`touch PWNED` $(touch PWNED) ${x} @x @FIT_LIMIT '.system('touch PWNED').' ")"
+    R"(.system('touch PWNED')." 100%s %n%d \)";
+
+TEST_F(StudyAnalyseCommand, NoTextOfATableRunsACommand) {
+  std::string hostile = kHostile;
+  for (std::size_t at = 0; (at = hostile.find('"', at)) != std::string::npos; at += 2) {
+    hostile.insert(at, 1, '"');
+  }
+  hostile = "\"" + hostile + "\nsystem('touch PWNED')\r\x01\x1b\"";
+  std::string table = "participant,object,method,question,answer\n";
+  for (const char* person : {"P1", "P2", "P3"}) {
+    for (const std::string& method : {std::string("none"), hostile}) {
+      for (const std::string& object : {std::string("plane"), hostile}) {
+        table += std::string(person) + "," + object + "," + method + "," + hostile + ",4\n";
+      }
+    }
+  }
+  write_file(path("answers.csv"), table);
+  for (const char* options : {"", " --language ja"}) {
+    const Ran ran = nade(std::string("study analyse answers.csv -o '`touch PWNED`'") + options);
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    EXPECT_EQ(ran.err.find("gnuplot said"), std::string::npos) << ran.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists(path("PWNED")));
+  EXPECT_FALSE(std::filesystem::exists(path("`touch PWNED`/PWNED")));
+  for (const char* script : {"fig3.gp", "fig3_by_object.gp"}) {
+    const std::string text = read_file(path(std::string("`touch PWNED`/") + script));
+    const auto is_control = [](char c) { return c != '\n' && (c == 0x7F || (c >= 0 && c < 0x20)); };
+    EXPECT_TRUE(std::none_of(text.begin(), text.end(), is_control)) << script;
+    EXPECT_EQ(text.find("\nsystem"), std::string::npos) << script;
+  }
+}
+
+TEST_F(StudyAnalyseCommand, NoTextOfAPlanRunsACommand) {
+  ASSERT_EQ(nade("study plan --method nade -o plan.json").status, 0);
+  auto plan = nlohmann::json::parse(read_file(path("plan.json")));
+  const std::string hostile = std::string(kHostile) + "\nsystem('touch PWNED')\r\x01\x1b";
+  const nlohmann::json text{{"en", hostile}, {"ja", hostile}};
+  plan["title"] = hostile;
+  plan["thanks"] = text;
+  plan["scale"]["low"] = plan["scale"]["high"] = text;
+  for (auto& question : plan["questions"]) question["text"] = text;
+  for (auto& paragraph : plan["instructions"]) paragraph = text;
+  write_file(path("plan.json"), plan.dump());
+  ASSERT_EQ(nade("study simulate plan.json -d study --participants 3").status, 0);
+  for (const char* options : {"", " --language ja"}) {
+    const Ran ran = nade(std::string("study analyse study -o out") + options);
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    EXPECT_EQ(ran.err.find("gnuplot said"), std::string::npos) << ran.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists(path("PWNED")));
+  EXPECT_FALSE(std::filesystem::exists(path("out/PWNED")));
+}
+
 TEST_F(StudyAnalyseCommand, WhatCannotBeAnalysedIsNamed) {
   write_file(path("answers.csv"), "participant,object,method,question,answer\nP1,dog,none,Q1,x\n");
   expect_failure(nade("study analyse answers.csv -o out"), "answers.csv: line 2: answer");

@@ -75,6 +75,20 @@ TEST_F(StudyCommand, NothingIsWrittenAmongTheData) {
   EXPECT_EQ(nade("study export data -o database").status, 0);
 }
 
+TEST_F(StudyCommand, NumbersBeyondADoubleAreNamed) {
+  ASSERT_EQ(nade("study plan -o plan.json").status, 0);
+  const std::string plan = read_file(path("plan.json"));
+  for (const std::string key : {"\"seed\": 2023", "\"trial_s\": 30.0", "\"points\": 7"}) {
+    for (const char* number : {"1e999", "-1e999"}) {
+      std::string changed = plan;
+      ASSERT_NE(changed.find(key), std::string::npos) << key;
+      changed.replace(changed.find(key), key.size(), key.substr(0, key.find(':') + 1) + number);
+      write_file(path("large.json"), changed);
+      expect_failure(nade("study simulate large.json -d other"), "large.json: expected numbers");
+    }
+  }
+}
+
 TEST_F(StudyCommand, MisuseIsNamed) {
   invent();
   const Ran effect = nade("study simulate plan.json -d other --effect Q7=1");

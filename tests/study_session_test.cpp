@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <string>
+#include <vector>
 
+#include "nade/study/line_break.h"
 #include "nade/study/session.h"
 #include "support/allocation_counter.h"
 
@@ -278,6 +281,45 @@ TEST(StudySession, ADoneStudyIsThanks) {
   progress.attempts.assign(6, 1);
   Sitting sitting(short_plan(), progress);
   EXPECT_EQ(sitting.session.state(), StudyState::thanks);
+}
+
+TEST(StudySession, NoPanelShowsTheTitle) {
+  Plan plan = short_plan();
+  plan.title = "With and without correction";
+  for (const Language language : {Language::english, Language::japanese}) {
+    plan.language = language;
+    const Sitting sitting(plan);
+    EXPECT_EQ(sitting.session.view().heading,
+              language == Language::english ? "Welcome" : "ようこそ");
+  }
+}
+
+TEST(LineBreak, EnglishBreaksAtBlanks) {
+  const auto letters = [](std::string_view text) { return static_cast<double>(text.size()); };
+  EXPECT_EQ(broken_lines("a hand on the dog", 8.0, letters),
+            (std::vector<std::string>{"a hand", "on the", "dog"}));
+  EXPECT_EQ(broken_lines("stroking", 3.0, letters), (std::vector<std::string>{"str", "oki", "ng"}));
+  EXPECT_EQ(broken_lines("one\n\ntwo", 8.0, letters), (std::vector<std::string>{"one", "", "two"}));
+  EXPECT_EQ(broken_lines("", 8.0, letters), std::vector<std::string>{""});
+}
+
+TEST(LineBreak, JapaneseBreaksBetweenPhrases) {
+  const auto bytes = [](std::string_view text) { return static_cast<double>(text.size()) / 3.0; };
+  EXPECT_EQ(broken_lines("片手の手のひらと指で、物体の表面をゆっくり撫でてください。", 9.0, bytes),
+            (std::vector<std::string>{"片手の手のひらと", "指で、物体の", "表面をゆっくり",
+                                      "撫でてください。"}));
+  EXPECT_EQ(broken_lines("少しお待ちください。", 6.0, bytes),
+            (std::vector<std::string>{"少し", "お待ちくださ", "い。"}));
+  EXPECT_EQ(broken_lines("準備ができたら「始める」を押す。", 8.0, bytes),
+            (std::vector<std::string>{"準備ができたら", "「始める」を", "押す。"}));
+}
+
+TEST(LineBreak, ZeroWidthSpacesSayWhereInstead) {
+  const auto bytes = [](std::string_view text) { return static_cast<double>(text.size()) / 3.0; };
+  EXPECT_EQ(broken_lines("繰り返し\u200B撫でて\u200Bください。", 8.0, bytes),
+            (std::vector<std::string>{"繰り返し撫でて", "ください。"}));
+  EXPECT_EQ(broken_lines("繰り返し\u200B撫でる。", 4.0, bytes),
+            (std::vector<std::string>{"繰り返し", "撫でる。"}));
 }
 
 TEST(StudySession, SpeaksBothLanguages) {

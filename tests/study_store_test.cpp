@@ -156,6 +156,51 @@ TEST_F(StudyStoreTest, RefusesWhatDoesNotFit) {
   EXPECT_TRUE(contains(refusal(quick_plan(), options()), "answers.csv: line 2: "));
 }
 
+TEST_F(StudyStoreTest, RefusesWhereAFileWasLost) {
+  run_into(2);
+  for (const char* file : {"plan.json", "answers.csv", "log.jsonl"}) {
+    const std::string kept = path(std::string("data/P01/") + file);
+    std::filesystem::rename(kept, path("aside"));
+    EXPECT_TRUE(contains(refusal(quick_plan(), options()),
+                         std::string("data/P01/") + file + ": expected it beside "))
+        << refusal(quick_plan(), options());
+    EXPECT_FALSE(std::filesystem::exists(kept));
+    std::filesystem::rename(path("aside"), kept);
+  }
+  // The recordings alone tell it, too.
+  for (const char* file : {"plan.json", "answers.csv", "log.jsonl"}) {
+    std::filesystem::remove(path(std::string("data/P01/") + file));
+  }
+  EXPECT_TRUE(
+      contains(refusal(quick_plan(), options()), "P01/plan.json: expected it beside trial-"));
+}
+
+TEST_F(StudyStoreTest, WhatWasKilledBeforeItsPlanBeginsAnew) {
+  std::filesystem::create_directories(path("data/P01"));
+  write("data/P01/answers.csv", "");
+  write("data/P01/log.jsonl", "");
+  EXPECT_EQ(refusal(quick_plan(), options()), "");
+}
+
+TEST_F(StudyStoreTest, ARunThatCouldNotBeShownIsTakenBack) {
+  EXPECT_TRUE(opened(quick_plan(), options())->withdraw());
+  EXPECT_FALSE(std::filesystem::exists(path("data")));
+  std::filesystem::create_directories(path("data"));
+  write("data/notes.txt", "mine");
+  EXPECT_TRUE(opened(quick_plan(), options())->withdraw());
+  EXPECT_FALSE(std::filesystem::exists(path("data/P01")));
+  EXPECT_EQ(content_of("data/notes.txt"), "mine");
+  run_into(2);
+  const std::string answers = content_of("data/P01/answers.csv");
+  EXPECT_FALSE(opened(quick_plan(), options())->withdraw());
+  EXPECT_EQ(content_of("data/P01/answers.csv"), answers);
+  const auto begun = opened(quick_plan(), options("P02"));
+  Stroker person(*begun);
+  person.go_to(StudyState::stroking);
+  EXPECT_FALSE(begun->withdraw());
+  EXPECT_TRUE(std::filesystem::exists(path("data/P02/plan.json")));
+}
+
 TEST_F(StudyStoreTest, OneProgramAtATime) {
   const auto run = opened(quick_plan(), options());
   EXPECT_TRUE(contains(refusal(quick_plan(), options()), "the only program"));

@@ -273,6 +273,9 @@ TEST_F(ViewerPictureTest, NothingOverlaps) {
   Driven driven(setup_of("plane"));
   driven.play("0 move 640 320", 2);
   expect_tidy(driven.viewer().ui());
+  const Widget* const lowest = driven.viewer().ui().find("hand:follows");
+  ASSERT_NE(lowest, nullptr);
+  EXPECT_LE(lowest->bottom, kHeight - 4);
 }
 
 /// With a recording to play.
@@ -363,6 +366,30 @@ TEST_F(ViewCommandTest, WithoutADisplayItSaysWhatIsMissing) {
   const test::Ran ran = shell("unset DISPLAY WAYLAND_DISPLAY; \"$NADE\" view");
   expect_failure(ran, "DISPLAY is not set");
   EXPECT_NE(ran.err.find("--headless"), std::string::npos);
+}
+
+TEST_F(ViewCommandTest, AStudyThatCannotBeginLeavesNothing) {
+  ASSERT_EQ(nade("study plan -o plan.json").status, 0);
+  const test::Ran ran = shell(
+      "unset DISPLAY WAYLAND_DISPLAY; \"$NADE\" study run plan.json --participant P01 -d "
+      "some/where");
+  expect_failure(ran, "DISPLAY is not set");
+  EXPECT_NE(ran.err.find("--xr"), std::string::npos) << ran.err;
+  expect_misuse(nade("study run plan.json --participant P01 --headless"), "expected --script FILE");
+  test::write_file(path("script.txt"), "1 click study:none\n");
+  expect_failure(nade("study run plan.json --participant P01 --headless --script script.txt"),
+                 "no widget is called 'study:none'");
+  EXPECT_EQ(files(), (std::vector<std::string>{"plan.json", "script.txt"}));
+}
+
+TEST_F(ViewCommandTest, AStudyGoesByAScript) {
+  ASSERT_EQ(nade("study plan -o plan.json").status, 0);
+  test::write_file(path("script.txt"), "20 click study:4\n40 click study:1\n");
+  const test::Ran ran =
+      nade("study run plan.json --participant P01 --headless --script script.txt --size 640x480");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_NE(test::read_file(path("plan/P01/log.jsonl")).find("\"event\":\"practice\""),
+            std::string::npos);
 }
 
 TEST_F(ViewCommandTest, AScreenshotIsAPngOfItsOwn) {

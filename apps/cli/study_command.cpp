@@ -187,7 +187,7 @@ void add_simulate(CLI::App& study, Action& action) {
 
 void add_study(CLI::App& app, Action& action) {
   CLI::App* const command = app.add_subcommand(
-      "study", "The user study: plan, run, check, export, simulate (docs/study.md)");
+      "study", "The user study: plan, run, check, export, analyse, simulate (docs/study.md)");
   command->require_subcommand(1);
   add_plan(*command, action);
   add_study_run(*command, action);

@@ -8,11 +8,15 @@
 
 #include "command_files.h"
 #include "console.h"
+#include "number_options.h"
+#ifdef NADE_CLI_DRAW
+#include "nade/draw/text.h"
+#endif
 #ifdef NADE_CLI_VIEWER
 #include "method_options.h"
 #include "nade/eval/synth.h"
-#include "number_options.h"
 #include "picture_options.h"
+#include "script_player.h"
 #include "window_options.h"
 #endif
 
@@ -27,17 +31,26 @@ struct DesktopArguments {
   WindowOptions window;
 };
 
-/// Without a window a study ends by itself; this is for one that nobody answers.
 constexpr std::size_t kFramesMax = 10'000'000;
 
+/// Without a window nobody answers, so that a run has to say when it ends.
+Status check_end(const WindowOptions& window) {
+  if (!window.headless || window.script || window.frames) return ok_status();
+  return misuse(
+      "--headless: expected --script FILE, which presses the panel's buttons (docs/study.md), or "
+      "--frames N");
+}
+
 Status run_on_desktop(const StudyRunArguments& study, const DesktopArguments& arguments) {
+  const Status ends = check_end(arguments.window);
+  if (!ends) return ends;
   std::vector<NamedFile> inputs = hand_files(arguments.hands);
   inputs.push_back({"PLAN", study.plan});
   const Status screenshot = check_screenshot(arguments.window, std::move(inputs));
   if (!screenshot) return screenshot;
   Result<viewer::Run> run = run_of(arguments.window);
   if (!run) return run.error();
-  if (arguments.window.headless && !run->frames) run->frames = kFramesMax;
+  if (arguments.window.headless && !run->frames) run->frames = viewer::frames_of(run->script);
   Result<draw::HandMeshes> hands = load_hands(arguments.hands);
   if (!hands) return hands.error();
   const Result<HandPose> relaxed = load_relaxed_hand(Handedness::right);
@@ -55,13 +68,12 @@ Status run_on_desktop(const StudyRunArguments& study, const DesktopArguments& ar
   setup.session.relaxed = *relaxed;
   const auto desk = setup.study;
   const Status shown = show_in(arguments.window, std::move(setup), *run);
-  const Status kept = close_study(desk->run());
-  return shown ? kept : shown;
+  return close_study(shown, desk->run());
 }
 
 void add_desktop_options(CLI::App& command, DesktopArguments& arguments) {
   add_hand_options(command, arguments.hands);
-  add_window_options(command, arguments.window, kFramesMax, "to the study's end");
+  add_window_options(command, arguments.window, kFramesMax, "to the script's end");
 }
 
 #else
@@ -108,6 +120,11 @@ Result<std::unique_ptr<study::StudyRun>> open_study(const StudyRunArguments& arg
   if (!plan) return plan.error();
   if (arguments.language == "en") plan->language = study::Language::english;
   if (arguments.language == "ja") plan->language = study::Language::japanese;
+#ifdef NADE_CLI_DRAW
+  if (plan->language == study::Language::japanese && !draw::japanese_font()) {
+    return Error{ErrorCode::not_found, std::string(draw::kNoJapaneseFont)};
+  }
+#endif
   const std::filesystem::path path(arguments.plan);
   study::RunOptions options;
   options.store.folder = arguments.folder.value_or((path.parent_path() / path.stem()).string());
@@ -123,7 +140,8 @@ Result<std::unique_ptr<study::StudyRun>> open_study(const StudyRunArguments& arg
   return run;
 }
 
-Status close_study(const study::StudyRun& run) {
+Status close_study(const Status& shown, study::StudyRun& run) {
+  if (!shown && run.withdraw()) return shown;
   if (!run.status().ok()) return run.status();
   const study::StudyProgress& progress = run.session().progress();
   std::size_t open = 0;
@@ -137,7 +155,7 @@ Status close_study(const study::StudyRun& run) {
   say(open == 0 ? fmt::format("{}: done", run.store().folder())
                 : fmt::format("{}: {} of {} trials still to be done; the same command goes on",
                               run.store().folder(), open, progress.trials.size()));
-  return ok_status();
+  return shown;
 }
 
 void add_study_run(CLI::App& study, Action& action) {

@@ -34,8 +34,9 @@ struct HandSource {
 [[nodiscard]] Result<std::unique_ptr<study::StudyRun>> open_study(
     const StudyRunArguments& arguments, const HandSource& source);
 
-/// What remains to be said when a run has ended.
-[[nodiscard]] Status close_study(const study::StudyRun& run);
+/// What remains to be said when a run has ended, of which `shown` tells whether it could be shown.
+/// Of one that could not even begin nothing is kept.
+[[nodiscard]] Status close_study(const Status& shown, study::StudyRun& run);
 
 /// The study in a headset, where this was built with OpenXR; else the error says so.
 [[nodiscard]] Status run_study_in_headset(const StudyRunArguments& arguments);

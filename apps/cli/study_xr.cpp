@@ -5,7 +5,6 @@
 #include "console.h"
 #include "headset_run.h"
 #include "method_options.h"
-#include "nade/draw/text.h"
 #include "operator_words.h"
 #include "picture_options.h"
 #include "study_guide.h"
@@ -43,9 +42,6 @@ Status run_study_in_headset(const StudyRunArguments& arguments) {
   if (!hands) return hands.error();
   Result<std::unique_ptr<study::StudyRun>> opened = open_study(arguments, {"openxr", true});
   if (!opened) return opened.error();
-  if ((*opened)->session().plan().language == study::Language::japanese && !draw::japanese_font()) {
-    return Error{ErrorCode::not_found, std::string(draw::kNoJapaneseFont)};
-  }
   xr::StudyGuide study(**opened, arguments.speed);
   AttendedGuide guide(study);
   MethodOptions method;
@@ -58,8 +54,7 @@ Status run_study_in_headset(const StudyRunArguments& arguments) {
   run.mirror = arguments.mirror;
   run.panel_log = arguments.panel_log;
   const Status shown = xr::run_headset(run, std::move(room), guide);
-  const Status kept = close_study(**opened);
-  return shown ? kept : shown;
+  return close_study(shown, **opened);
 }
 
 }  // namespace nade::cli

@@ -252,7 +252,7 @@ void draw_controls(UiKit& ui, Desk& desk, const Layout& layout) {
   ImGui::SetNextWindowSize(
       {static_cast<float>(layout.controls_width), static_cast<float>(layout.height)});
   ImGui::Begin("controls", nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav);
   object_section(ui, desk);
   method_section(ui, desk);

@@ -12,12 +12,17 @@ constexpr std::size_t kClickEnds = 2;
 
 }  // namespace
 
-Status check_length(const std::vector<ScriptedStep>& steps, std::size_t frames) {
+std::size_t frames_of(const std::vector<ScriptedStep>& steps) {
   std::size_t needed = 0;
   for (const ScriptedStep& step : steps) {
     const bool clicks = std::holds_alternative<ScriptedClick>(step.act);
     needed = std::max(needed, step.frame + 1 + (clicks ? kClickEnds : 0));
   }
+  return needed;
+}
+
+Status check_length(const std::vector<ScriptedStep>& steps, std::size_t frames) {
+  const std::size_t needed = frames_of(steps);
   if (needed <= frames) return ok_status();
   return Error{
       ErrorCode::bad_value,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <deque>
 #include <vector>
 
@@ -8,6 +9,9 @@
 #include "ui_kit.h"
 
 namespace nade::viewer {
+
+/// How many frames a script takes.
+[[nodiscard]] std::size_t frames_of(const std::vector<ScriptedStep>& steps);
 
 /// Refuses a script that goes on after a run's last frame.
 [[nodiscard]] Status check_length(const std::vector<ScriptedStep>& steps, std::size_t frames);

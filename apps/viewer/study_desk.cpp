@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 #include <utility>
+
+#include "nade/study/line_break.h"
 
 namespace nade::viewer {
 namespace {
@@ -48,6 +51,19 @@ void begin_window(const char* name, const ImVec2& screen, const ImVec2& share, f
   ImGui::Begin(name, nullptr, kPanelFlags);
 }
 
+/// Writes a text in as many lines as it takes.
+void draw_text(const std::string& text) {
+  const auto width = [](std::string_view part) -> double {
+    return ImGui::CalcTextSize(part.data(), part.data() + part.size()).x;
+  };
+  const double room = ImGui::GetContentRegionAvail().x;
+  std::string lines;
+  for (const std::string& line : study::broken_lines(text, room, width)) {
+    lines += (lines.empty() ? "" : "\n") + line;
+  }
+  ImGui::TextUnformatted(lines.c_str());
+}
+
 void end_window() {
   ImGui::End();
   ImGui::PopStyleVar(3);
@@ -71,10 +87,10 @@ void StudyDesk::draw_panel(UiKit& ui, const Input& input) {
   begin_window("panel", screen, aside ? ImVec2{0.5F, 0.0F} : ImVec2{0.5F, 0.5F},
                std::min(aside ? 0.5F * kPanelWidth : kPanelWidth, screen.x - 20.0F));
   ImGui::PushFont(ui.large_font());
-  ImGui::TextColored({0.55F, 0.82F, 0.92F, 1.0F}, "%s", view.heading.c_str());
-  ImGui::PushTextWrapPos(0.0F);
-  for (const std::string& line : view.lines) ImGui::TextUnformatted(line.c_str());
-  ImGui::PopTextWrapPos();
+  ImGui::PushStyleColor(ImGuiCol_Text, {0.55F, 0.82F, 0.92F, 1.0F});
+  draw_text(view.heading);
+  ImGui::PopStyleColor();
+  for (const std::string& text : view.lines) draw_text(text);
   // A press changes the rows.
   const std::vector<std::vector<study::PanelButton>> rows = view.rows;
   for (const auto& row : rows) draw_row(ui, row);

@@ -31,6 +31,7 @@ class StudyDesk {
   [[nodiscard]] bool closed() const { return closed_; }
   [[nodiscard]] study::Language language() const { return run_->session().plan().language; }
   [[nodiscard]] const study::StudyRun& run() const { return *run_; }
+  [[nodiscard]] study::StudyRun& run() { return *run_; }
 
  private:
   void draw_panel(UiKit& ui, const Input& input);

@@ -233,8 +233,11 @@ Status run_window(ViewerSetup setup, const Run& run) {
     const bool unset = display == nullptr || *display == '\0';
     return Error{ErrorCode::not_found,
                  fmt::format("no display to open a window on ({}): start it in a desktop session, "
-                             "or draw without a window: nade view --headless --screenshot FILE",
-                             unset ? "DISPLAY is not set" : fmt::format("DISPLAY={}", display))};
+                             "or {}",
+                             unset ? "DISPLAY is not set" : fmt::format("DISPLAY={}", display),
+                             setup.study ? "in a headset: --xr"
+                                         : "draw without a window: nade view --headless "
+                                           "--screenshot FILE")};
   }
   const GlfwLibrary library;
   Input input;

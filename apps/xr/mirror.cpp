@@ -153,7 +153,7 @@ void MirrorWindow::Closer::operator()(GLFWwindow* window) const { glfwDestroyWin
 Result<MirrorWindow> MirrorWindow::open() {
   if (!glfwInit()) {
     return Error{ErrorCode::not_found,
-                 "--mirror opens a window, and there is no display to open it on: start nade xr "
+                 "--mirror opens a window, and there is no display to open it on: start it "
                  "from a desktop session, or leave --mirror out"};
   }
   glfwDefaultWindowHints();

@@ -7,6 +7,7 @@
 
 #include "nade/draw/scene.h"
 #include "nade/draw/text.h"
+#include "nade/study/line_break.h"
 
 namespace nade::xr {
 namespace {
@@ -60,36 +61,6 @@ void fill(Image& image, const ButtonPlace& place, const Rgb& color, int corner) 
   }
 }
 
-/// Lines no wider than `width`, broken at spaces; what has none is broken between characters.
-std::vector<std::string> broken(std::string_view text, float height_px, float width) {
-  std::vector<std::string> lines(1);
-  std::size_t at = 0;
-  while (at < text.size()) {
-    std::size_t end = at;
-    while (end < text.size() && text[end] != ' ') ++end;
-    while (end < text.size() && text[end] == ' ') ++end;
-    std::string word(text.substr(at, end - at));
-    at = end;
-    if (draw::text_width(lines.back() + word, height_px) > width && !lines.back().empty()) {
-      lines.emplace_back();
-    }
-    while (draw::text_width(word, height_px) > width && word.size() > 1) {
-      std::size_t fits = 0;
-      for (std::size_t next = 1; next < word.size(); ++next) {
-        if ((static_cast<unsigned char>(word[next]) & 0xC0U) == 0x80U) continue;
-        if (draw::text_width(word.substr(0, next), height_px) > width) break;
-        fits = next;
-      }
-      if (fits == 0) break;
-      lines.back() += word.substr(0, fits);
-      lines.emplace_back();
-      word.erase(0, fits);
-    }
-    lines.back() += word;
-  }
-  return lines;
-}
-
 /// Puts a panel's parts below each other; nothing is drawn where `image` is null.
 class Layout {
  public:
@@ -97,8 +68,9 @@ class Layout {
 
   void text(std::string_view text, float height_px) {
     const float height = scale_ * height_px;
-    constexpr float kAcross = kPanelWidth_px - 2 * kMargin;
-    for (const std::string& line : broken(text, height, kAcross)) {
+    constexpr double kAcross = kPanelWidth_px - 2 * kMargin;
+    const auto width = [&](std::string_view part) { return draw::text_width(part, height); };
+    for (const std::string& line : study::broken_lines(text, kAcross, width)) {
       if (image_ != nullptr) {
         draw::draw_text(*image_, kMargin, static_cast<float>(y_), line, height, kInk);
       }

@@ -60,7 +60,7 @@ Result<std::unique_ptr<GraphicsBinding>> bind_xlib() {
   if (!glfwInit()) {
     return Error{ErrorCode::not_found,
                  "this OpenXR runtime takes pictures only through an X server, and none could be "
-                 "reached: start nade xr from a desktop session (or with DISPLAY set)"};
+                 "reached: start it from a desktop session (or with DISPLAY set)"};
   }
   glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);

@@ -6,7 +6,7 @@
 
 #include "answer_sheet.h"
 #include "nade/study/figure.h"
-#include "wrapped_text.h"
+#include "nade/study/line_break.h"
 
 namespace nade::study {
 namespace {
@@ -51,13 +51,23 @@ struct Layout {
 /// Pixels for one method.
 double place_width(const Sheet& sheet) { return sheet.panels.size() > 1 ? 50.0 : 82.0; }
 
+/// About how wide a text will be, pixels: kana and ideographs, three bytes each, are as wide as two
+/// letters.
+double text_width(std::string_view text) {
+  double letters = 0.0;
+  for (const char character : text) {
+    const auto byte = static_cast<unsigned char>(character);
+    if ((byte & 0xC0U) != 0x80U) letters += byte >= 0xE3 ? 2.0 : 1.0;
+  }
+  return kLetterWidth * letters;
+}
+
 /// A question's place under the axis: its name, and its text in narrow lines.
 std::vector<std::string> question_lines(const Sheet& sheet, const Question& question) {
   std::vector<std::string> lines{question.id};
   if (sheet.texts == QuestionTexts::names_only) return lines;
-  const double room = Places(sheet).group_width() * place_width(sheet);
-  const auto letters = static_cast<std::size_t>(0.95 * room / kLetterWidth);
-  for (std::string& line : wrapped(question.text.in(sheet.language), letters)) {
+  const double room = 0.95 * Places(sheet).group_width() * place_width(sheet);
+  for (std::string& line : broken_lines(question.text.in(sheet.language), room, text_width)) {
     lines.push_back(std::move(line));
   }
   return lines;
@@ -79,28 +89,38 @@ Layout layout_of(const Sheet& sheet) {
   return layout;
 }
 
-/// A string of gnuplot's, in double quotes.
+/// A line as a string of gnuplot's. In single quotes it replaces nothing, where in double ones it
+/// runs what stands in backticks. Control characters become blanks.
 std::string in_quotes(std::string_view text) {
-  std::string result = "\"";
+  std::string result = "'";
   for (const char character : text) {
-    if (character == '\n') {
-      result += "\\n";
-    } else {
-      if (character == '"' || character == '\\') result += '\\';
-      result += character;
-    }
+    const auto code = static_cast<unsigned char>(character);
+    if (character == '\'') result += '\'';
+    result += code < 0x20 || code == 0x7F ? ' ' : character;
   }
-  return result + '"';
+  return result + "'";
+}
+
+/// The label of a place on an axis, where gnuplot takes % for a number's format.
+std::string tic_label(const std::vector<std::string>& lines) {
+  std::string label;
+  for (const std::string& line : lines) {
+    std::string quoted = in_quotes(line);
+    for (std::size_t at = 0; (at = quoted.find('%', at)) != std::string::npos; at += 2) {
+      quoted.insert(at, 1, '%');
+    }
+    label += (label.empty() ? "" : ".\"\\n\".") + quoted;
+  }
+  return label;
 }
 
 std::string tics_of(const Sheet& sheet) {
   const Places places(sheet);
   std::string tics;
   for (std::size_t i = 0; i < sheet.data.questions.size(); ++i) {
-    const auto lines = question_lines(sheet, sheet.data.questions[i]);
-    tics +=
-        fmt::format("{}{} {:.4f}", i > 0 ? ", " : "",
-                    in_quotes(fmt::format("{}", fmt::join(lines, "\n"))), places.group_centre(i));
+    tics += fmt::format("{}{} {:.4f}", i > 0 ? ", " : "",
+                        tic_label(question_lines(sheet, sheet.data.questions[i])),
+                        places.group_centre(i));
   }
   return tics;
 }
@@ -165,9 +185,8 @@ set key at screen 0.5,0.99 center top horizontal maxrows 1 reverse Left samplen 
 std::string head_of(const std::string& name, const Layout& layout) {
   return fmt::format(
              "# {0}.svg, {0}.pdf and {0}.png from {0}.dat; to draw them anew: gnuplot {0}.gp\n"
-             "if (!exists(\"IN\")) IN = \"\"\n"
              "if (!exists(\"OUT\")) OUT = \"\"\n"
-             "NAME = {1}\nDATA = IN.NAME.\".dat\"\nWIDTH = {2:.0f}\nHEIGHT = {3:.0f}\n",
+             "NAME = {1}\nDATA = NAME.\".dat\"\nWIDTH = {2:.0f}\nHEIGHT = {3:.0f}\n",
              name, in_quotes(name), layout.width, layout.height) +
          std::string(kTerminals);
 }

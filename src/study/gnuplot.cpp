@@ -21,6 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 3> kFormats{".svg", ".pdf", ".png"};
+constexpr const char* kMessages = "messages";  // gnuplot's
 
 /// A folder that is gone again with all that is in it.
 class PassingFolder {
@@ -35,6 +36,7 @@ class PassingFolder {
     if (there_) fs::remove_all(path_, aside);
   }
   [[nodiscard]] bool there() const { return there_; }
+  [[nodiscard]] std::string name() const { return fs::path(path_).filename().string(); }
   [[nodiscard]] std::string path(std::string_view name) const {
     return path_ + "/" + std::string(name);
   }
@@ -50,18 +52,20 @@ struct Ended {
   int status = 0;
 };
 
-Ended run_gnuplot(const std::string& settings, const std::string& script,
-                  const std::string& messages) {
+/// Runs a script from its folder, so that no path is ever read as a command; the pictures go to
+/// `out`, which lies in it.
+Ended run_gnuplot(const std::string& folder, const std::string& script, const std::string& out) {
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
   posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&files, STDERR_FILENO, messages.c_str(),
+  posix_spawn_file_actions_addchdir_np(&files, folder.c_str());
+  posix_spawn_file_actions_addopen(&files, STDERR_FILENO, (out + kMessages).c_str(),
                                    O_WRONLY | O_CREAT | O_TRUNC, 0600);
   std::string program = "gnuplot";
   std::string defaults = "--default-settings";
   std::string command = "-e";
-  std::string set = settings;
+  std::string set = fmt::format("OUT='{}'", out);
   std::string file = script;
   std::array<char*, 6> arguments{program.data(), defaults.data(), command.data(),
                                  set.data(),     file.data(),     nullptr};
@@ -73,16 +77,6 @@ Ended run_gnuplot(const std::string& settings, const std::string& script,
   while (::waitpid(child, &ended.status, 0) < 0 && errno == EINTR) {
   }
   return ended;
-}
-
-/// A string of gnuplot's, in single quotes.
-std::string single_quoted(std::string_view text) {
-  std::string result = "'";
-  for (const char character : text) {
-    if (character == '\'') result += '\'';
-    result += character;
-  }
-  return result + "'";
 }
 
 std::string first_message(const std::string& path) {
@@ -115,7 +109,7 @@ std::string problem_of(const Figure& figure, const Ended& ended, const PassingFo
   }
   if (all) return {};
   return fmt::format("{} were not drawn, gnuplot said: {}", pictures,
-                     first_message(passing.path("messages")));
+                     first_message(passing.path(kMessages)));
 }
 
 }  // namespace
@@ -130,10 +124,8 @@ Result<DrawnFigure> draw_figure(const Figure& figure, const std::string& folder)
   if (!passing.there()) {
     return Error{ErrorCode::unwritable, fmt::format("{}: no folder can be made in it", folder)};
   }
-  const std::string settings =
-      fmt::format("IN={}; OUT={}", single_quoted((fs::path(folder) / "").string()),
-                  single_quoted(passing.path("")));
-  const Ended ended = run_gnuplot(settings, stem + ".gp", passing.path("messages"));
+  const Ended ended =
+      run_gnuplot(fs::path(".") / folder, figure.name + ".gp", passing.name() + "/");
   DrawnFigure drawn;
   drawn.problem = problem_of(figure, ended, passing);
   if (!drawn.problem.empty()) return drawn;

@@ -119,6 +119,9 @@ Result<Json> parse_json(std::string_view text, const std::string& name) {
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');
     return Error{ErrorCode::bad_format,
                  fmt::format("{}: line {}: expected valid JSON", name, line)};
+  } catch (const Json::out_of_range&) {
+    return Error{ErrorCode::bad_value,
+                 fmt::format("{}: expected numbers up to 1.8e308, found a larger one", name)};
   }
 }
 

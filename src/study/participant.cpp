@@ -222,8 +222,8 @@ StudyProgress progress_of(const Participant& participant) {
 }
 
 std::string recording_stem(const Trial& trial, std::size_t attempt) {
-  return fmt::format("trial-{:02}-{}-{}{}", trial.number, trial.object, name_of(trial.method),
-                     attempt > 1 ? fmt::format("-attempt-{}", attempt) : "");
+  return fmt::format("{}{:02}-{}-{}{}", kRecordingPrefix, trial.number, trial.object,
+                     name_of(trial.method), attempt > 1 ? fmt::format("-attempt-{}", attempt) : "");
 }
 
 Result<std::vector<std::string>> participant_folders(const std::string& folder) {

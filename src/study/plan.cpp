@@ -12,7 +12,8 @@ std::vector<Text> default_instructions() {
   return {
       {"You will see an object and your own hands. Stroke the object with the palm and the fingers "
        "of one hand, the way you would stroke a real one, slowly, over its whole surface.",
-       "物体と自分の手が見えます。実物を撫でるように、片手の手の平と指で、物体の表面全体をゆっくり"
+       "物体と自分の手が見えます。実物を撫でるように、片手の手のひらと指で、物体の表面全体をゆっく"
+       "り"
        "撫でてください。"},
       {"Nothing will hold your hand back: there is no real object. Go on stroking until the time "
        "is "

@@ -175,6 +175,7 @@ void StudyRun::stop(std::int64_t now_ns) {
   impl_->recorder.drain();
 }
 
+bool StudyRun::withdraw() { return impl_->store.withdraw(); }
 void StudyRun::drain() { impl_->recorder.drain(); }
 
 StudyState StudyRun::state() const { return impl_->session.state(); }

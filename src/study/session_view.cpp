@@ -67,7 +67,8 @@ void StudySession::build_view() {
                    : filled(kWords.trial, language, trials_[trial_].number, trials_.size());
   switch (state_) {
     case StudyState::instructions:
-      view_.heading = plan_.title.empty() ? word(kWords.welcome) : plan_.title;
+      // Not the plan's title, which may tell what is tested.
+      view_.heading = word(kWords.welcome);
       for (const Text& paragraph : plan_.instructions) view_.lines.push_back(word(paragraph));
       view_.rows = {{button(kContinueButton, kWords.go_on, language)}};
       break;

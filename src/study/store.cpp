@@ -15,6 +15,8 @@
 namespace nade::study {
 namespace {
 
+namespace fs = std::filesystem;
+
 using What = StudyEvent::What;
 
 std::string system_time() {
@@ -85,11 +87,48 @@ std::optional<Error> misfit(const Participant& found, const ParticipantPlan& wan
   return std::nullopt;
 }
 
+/// What was lost of a participant's files, where something was.
+std::optional<Error> loss(const std::string& folder) {
+  std::error_code aside;
+  const fs::path path(folder);
+  const auto lost = [&](std::string_view what, std::string_view beside) {
+    return Error{ErrorCode::not_found,
+                 fmt::format("{}/{}: expected it beside {}, found no such file: put it back from a "
+                             "copy, or take another participant's id",
+                             folder, what, beside)};
+  };
+  if (fs::exists(path / kPlanFile, aside)) {
+    for (const std::string_view file : {kAnswersFile, kLogFile}) {
+      if (!fs::exists(path / file, aside)) return lost(file, kPlanFile);
+    }
+    return std::nullopt;
+  }
+  // What was killed before it wrote its plan leaves these files, but nothing in them.
+  for (const std::string_view file : {kAnswersFile, kLogFile}) {
+    if (fs::file_size(path / file, aside) > 0 && !aside) return lost(kPlanFile, file);
+  }
+  for (const auto& entry : fs::directory_iterator(path, aside)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(kRecordingPrefix)) return lost(kPlanFile, name);
+  }
+  return std::nullopt;
+}
+
+/// The outermost folder of a path that is not there yet; empty where all of it is.
+fs::path first_missing(fs::path path) {
+  std::error_code aside;
+  fs::path missing;
+  for (; !path.empty() && !fs::exists(path, aside); path = path.parent_path()) missing = path;
+  return missing;
+}
+
 }  // namespace
 
 struct StudyStore::Impl {
   StoreOptions options;
   std::string folder;
+  bool is_new = false;
+  fs::path made;  ///< the outermost folder that was made for it; empty where none was
   ParticipantPlan head;
   StudyProgress progress;
   std::vector<std::string> notes;
@@ -208,15 +247,16 @@ Result<StudyStore> StudyStore::open(const Plan& plan, StoreOptions options) {
                 options.speed,
                 plan,
                 trials_of(plan, options.participant)};
-  impl->folder =
-      (std::filesystem::path(options.folder) / options.participant).lexically_normal().string();
+  impl->folder = (fs::path(options.folder) / options.participant).lexically_normal().string();
   impl->options = std::move(options);
+  if (const auto lost = loss(impl->folder)) return *lost;
+  impl->made = first_missing(impl->folder);
   const Status made = make_folder(impl->folder);
   if (!made) return made.error();
   const Status opened = impl->open_files();
   if (!opened) return opened.error();
-  const bool is_new = !std::filesystem::exists(impl->path(kPlanFile));
-  const Status ready = is_new ? impl->begin() : impl->go_on();
+  impl->is_new = !fs::exists(impl->path(kPlanFile));
+  const Status ready = impl->is_new ? impl->begin() : impl->go_on();
   if (!ready) return ready.error();
   if (impl->answers->empty()) {
     const Status named = impl->answers->append(answers_header(impl->head.origin), impl->reach());
@@ -225,7 +265,8 @@ Result<StudyStore> StudyStore::open(const Plan& plan, StoreOptions options) {
   const Status synced = sync_folder(impl->folder);
   if (!synced) return synced.error();
   const Status noted = impl->add_to_log(
-      {{"event", is_new ? "begun" : "taken_up"}, {"tool", impl->options.tool}}, impl->reach());
+      {{"event", impl->is_new ? "begun" : "taken_up"}, {"tool", impl->options.tool}},
+      impl->reach());
   if (!noted) return noted.error();
   return StudyStore(std::move(impl));
 }
@@ -253,6 +294,22 @@ Status StudyStore::keep(const StudyEvent& event) {
   }
   if (!kept.ok()) impl_->failure = kept.error();
   return kept;
+}
+
+bool StudyStore::withdraw() {
+  if (!impl_->is_new || impl_->first_ns) return false;
+  impl_->first_ns = 0;
+  impl_->failure = Error{ErrorCode::not_found, fmt::format("{}: was withdrawn", impl_->folder)};
+  std::error_code aside;
+  for (const std::string_view file : {kPlanFile, kAnswersFile, kLogFile}) {
+    fs::remove(impl_->path(file), aside);
+  }
+  if (impl_->made.empty()) return true;
+  // Only what is empty goes.
+  for (fs::path folder = impl_->folder; fs::remove(folder, aside) && folder != impl_->made;) {
+    folder = folder.parent_path();
+  }
+  return true;
 }
 
 Status StudyStore::remark(const std::string& event, const std::string& reason) {

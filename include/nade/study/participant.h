@@ -16,6 +16,8 @@ namespace nade::study {
 inline constexpr std::string_view kPlanFile = "plan.json";
 inline constexpr std::string_view kAnswersFile = "answers.csv";
 inline constexpr std::string_view kLogFile = "log.jsonl";
+/// Of the names of all recordings.
+inline constexpr std::string_view kRecordingPrefix = "trial-";
 
 /// Where answers come from.
 enum class Origin : std::uint8_t { person, simulated };

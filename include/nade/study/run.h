@@ -62,6 +62,8 @@ class StudyRun {
   void repeat(std::int64_t now_ns);
   void skip(const std::string& reason, std::int64_t now_ns);
   void stop(std::int64_t now_ns);
+  /// For a run that could not be shown; see `StudyStore::withdraw`.
+  bool withdraw();
   /// Waits until the motion so far is written; for who does not live in real time.
   void drain();
 

@@ -31,7 +31,8 @@ class StudyStore {
  public:
   /// Makes the participant's folder, or goes on with it: then the plan has to be the same, a line
   /// that was cut off is cut away, and what is damaged otherwise is an error that names file and
-  /// line. A participant's id with other characters is `ErrorCode::out_of_range`.
+  /// line; so is a file that is missing beside others. A participant's id with other characters is
+  /// `ErrorCode::out_of_range`.
   [[nodiscard]] static Result<StudyStore> open(const Plan& plan, StoreOptions options);
   StudyStore(StudyStore&&) noexcept;
   StudyStore& operator=(StudyStore&&) noexcept;
@@ -49,6 +50,9 @@ class StudyStore {
   [[nodiscard]] Status keep(const StudyEvent& event);
   /// Keeps a remark ("dropped_frames") in the log.
   [[nodiscard]] Status remark(const std::string& event, const std::string& reason);
+  /// Takes a participant back who was new when this was opened and of whom no event was kept: the
+  /// files and the folders made for them are gone. Otherwise does nothing and gives false.
+  bool withdraw();
   /// The time of day, by the options.
   [[nodiscard]] std::string now() const;
 
