@@ -87,17 +87,22 @@ TEST_F(Cli, CutOffGzipIsReadAsFarAsItGoes) {
 TEST_F(Cli, BonesWithoutLengthGiveFiniteHands) {
   make_stroke("in.jsonl");
   const auto lines = lines_of(read_file(path("in.jsonl")));
-  for (const std::size_t from : {std::size_t{6}, std::size_t{0}}) {
+  const auto in_one_point = [&](std::size_t from, std::size_t to) {
     std::string text = lines[0] + "\n";
     for (std::size_t i = 1; i < lines.size(); ++i) {
       auto frame = nlohmann::json::parse(lines[i]);
       auto& joints = frame["right"]["joints"];
-      const std::size_t to = from == 0 ? 26 : 11;  // of the index finger
       for (std::size_t joint = from; joint < to; ++joint) {
         for (std::size_t axis = 0; axis < 3; ++axis) joints[joint][axis] = joints[from][axis];
       }
       text += frame.dump() + "\n";
     }
+    return text;
+  };
+  // The index finger; and what lies beyond the middle knuckle, with ring and little finger.
+  for (const auto& [from, to] :
+       std::vector<std::pair<std::size_t, std::size_t>>{{6, 11}, {13, 26}}) {
+    const std::string text = in_one_point(from, to);
     write_file(path("point.jsonl"), text);
     const Ran ran = nade("correct point.jsonl -o out.jsonl --object sphere");
     ASSERT_EQ(ran.status, 0) << ran.err;
@@ -113,6 +118,12 @@ TEST_F(Cli, BonesWithoutLengthGiveFiniteHands) {
     EXPECT_EQ(nade("measure point.jsonl out.jsonl --object sphere").status, 0);
     EXPECT_EQ(nade("inspect out.jsonl").status, 0);
   }
+  write_file(path("point.jsonl"), in_one_point(0, 26));
+  const Ran ran = nade("correct point.jsonl -o out.jsonl --object sphere");
+  EXPECT_EQ(ran.status, 0);
+  EXPECT_NE(ran.err.find("the hand has no length"), std::string::npos) << ran.err;
+  EXPECT_NE(ran.err.find("no frame has a hand"), std::string::npos) << ran.err;
+  EXPECT_EQ(read_file(path("out.jsonl")).find("right\":{"), std::string::npos);
 }
 
 TEST_F(Cli, AKilledProgramLeavesNothing) {
