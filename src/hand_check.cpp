@@ -14,7 +14,8 @@ constexpr double kMostOffBone_rad = 30.0 * kDegree;
 constexpr double kMostOffBack_rad = 45.0 * kDegree;
 /// Below it another reading of the rotations fits the bones too well for chance.
 constexpr double kFits_rad = 15.0 * kDegree;
-constexpr double kAlike = 1e-9;  // of the quaternions' dot product from 1
+constexpr double kMostBentBack = 0.2;  // sines, added
+constexpr double kAlike = 1e-9;        // of the quaternions' dot product from 1
 constexpr double kNoBone_m = 1e-6;
 
 constexpr std::array<JointAxis, 6> kAxes{JointAxis::plus_x,  JointAxis::plus_y,
@@ -63,6 +64,21 @@ Vec3 back_by_positions(const HandPose& hand) {
       hand[Joint::index_proximal].position - hand[Joint::little_proximal].position;
   const Vec3 back = ahead.cross(to_thumb);
   return hand.side == Handedness::right ? back : Vec3(-back);
+}
+
+/// How far the fingers are bent to the back of the hand at their two last hinges: sines, added.
+double bent_back(const HandPose& hand) {
+  const Vec3 ahead = hand[Joint::middle_proximal].position - hand[Joint::wrist].position;
+  const Vec3 hinge = ahead.cross(back_by_positions(hand)).normalized();
+  double sum = 0.0;
+  for (std::size_t d = 1; d < kDigitCount; ++d) {
+    const auto bone = [&](std::size_t from_tip) {
+      const std::size_t to = index_of(joints_of(digit_at(d)).tip) - from_tip;
+      return Vec3((hand.joints[to].position - hand.joints[to - 1].position).normalized());
+    };
+    sum += (bone(2).cross(bone(1)) + bone(1).cross(bone(0))).dot(hinge);
+  }
+  return sum / (kDigitCount - 1);
 }
 
 /// Between a local axis of the rigid bones and the back of the hand, median.
@@ -147,7 +163,12 @@ void check_turns(const HandPose& hand, HandCheck& check) {
   check.doubts[static_cast<std::size_t>(HandDoubt::turns)] = alike;
   check.doubts[static_cast<std::size_t>(HandDoubt::bones)] = bones;
   check.doubts[static_cast<std::size_t>(HandDoubt::back)] = back;
-  if (!alike && !bones && !back) return;
+  if (!alike && !bones && !back) {
+    if (!(bent_back(hand) > kMostBentBack)) return;
+    check.doubts[static_cast<std::size_t>(HandDoubt::bend)] = true;
+    check.cause = HandCause::upside_down;
+    return;
+  }
   const Axes axes = axes_of(hand);
   check.bone_axis = axes.bone;
   check.back_axis = axes.back;
@@ -194,6 +215,8 @@ std::string_view name_of(HandCause cause) {
       "the quaternions look to have w first; write them as x, y, z, w",
       "the hand looks to be from a left-handed frame, as Unity's; negate z of the positions and x "
       "and y of the quaternions",
+      "the fingers bend to the back of the hand, as where the frame is mirrored; negate y of the "
+      "positions and x and z of the quaternions",
       "the hand looks to be of the other side; swap left and right or, where the frame is "
       "mirrored, negate x of the positions and y and z of the quaternions",
       "the joints look to have other axes; turn their rotations so that -Z points to the fingertip "

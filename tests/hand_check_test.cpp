@@ -65,6 +65,18 @@ TEST(HandCheck, ALeftHandedFrame) {
   }
 }
 
+TEST(HandCheck, AFrameMirroredFromThePalmToTheBack) {
+  HandPose hand = test::sample_hand();
+  for (Pose& joint : hand.joints) {
+    joint.position.y() *= -1.0;
+    joint.rotation.x() *= -1.0;
+    joint.rotation.z() *= -1.0;
+  }
+  const HandCheck check = check_hand(hand);
+  EXPECT_TRUE(check.has(HandDoubt::bend));
+  EXPECT_EQ(check.cause, HandCause::upside_down);
+}
+
 TEST(HandCheck, SidesSwapped) {
   HandPose hand = somewhere();
   hand.side = Handedness::left;

@@ -17,8 +17,9 @@ enum class HandDoubt : std::uint8_t {
   turns,      ///< every joint is turned alike
   bones,      ///< the joints' -Z is more than 30 degrees off their bones, at the median
   back,       ///< the metacarpals' +Y is more than 45 degrees off the back of the hand
+  bend,       ///< the fingers bend to the back of the hand, by more than a dozen degrees
 };
-inline constexpr std::size_t kHandDoubtCount = 6;
+inline constexpr std::size_t kHandDoubtCount = 7;
 
 /// What a doubtful pose most likely is.
 enum class HandCause : std::uint8_t {
@@ -27,11 +28,12 @@ enum class HandCause : std::uint8_t {
   no_rotations,      ///< rotations were never set
   quaternion_order,  ///< w came first, and was read as x
   mirrored,          ///< from a left-handed frame, as Unity's
+  upside_down,       ///< from a frame that is mirrored from the palm to the back of the hand
   swapped_sides,     ///< the hand is of the other side
   other_bone_axes,   ///< joints point to the fingertip, or to the back, with other axes
   unknown,           ///< none of these
 };
-inline constexpr std::size_t kHandCauseCount = 8;
+inline constexpr std::size_t kHandCauseCount = 9;
 
 /// An axis of a joint's own frame.
 enum class JointAxis : std::uint8_t { plus_x, plus_y, plus_z, minus_x, minus_y, minus_z };

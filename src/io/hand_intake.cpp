@@ -51,7 +51,8 @@ std::string turn_of(const HandCheck& check) {
   if (std::abs(bone.dot(back)) > 0.5) return axes;
   Eigen::Matrix3d turn;
   turn << back.cross(-bone), back, -bone;
-  const Quat q = Quat(turn).normalized();
+  Quat q = Quat(turn).normalized();
+  q.coeffs() += Eigen::Vector4d::Zero();  // no -0
   return fmt::format(
       "{}; multiply each quaternion from the right by {:.4g}, {:.4g}, {:.4g}, {:.4g}", axes, q.x(),
       q.y(), q.z(), q.w());
@@ -112,9 +113,9 @@ void HandIntake::judge(const HandPose& hand) {
   side.length_m.add(check.length_m);
   side.bone_angle_rad.add(check.bone_angle_rad);
   if (check.has(HandDoubt::length)) ++side.odd_lengths;
-  if (!check.has(HandDoubt::turns) && !check.has(HandDoubt::bones) && !check.has(HandDoubt::back)) {
-    return;
-  }
+  const bool turns = check.has(HandDoubt::turns) || check.has(HandDoubt::bones) ||
+                     check.has(HandDoubt::back) || check.has(HandDoubt::bend);
+  if (!turns) return;
   const auto cause = static_cast<std::size_t>(*check.cause);
   if (side.causes[cause]++ == 0) side.first[cause] = check;
 }
@@ -133,7 +134,7 @@ std::optional<std::string> HandIntake::doubt_of_time() const {
     const double factor = unit.size / tick_s_;
     const double meant_s = factor * *step_s;
     if (!(meant_s >= kShortestStep_s && meant_s <= kLongestStep_s)) continue;
-    return fmt::format("the times look to be in {}, expected {}; multiply them by {} ({})",
+    return fmt::format("the times look to be in {}, expected {}; multiply them by {:.9g} ({})",
                        unit.name, name_of_unit(kTimes, tick_s_), factor, found);
   }
   return found;
