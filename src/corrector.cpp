@@ -150,17 +150,29 @@ void HandCorrector::reset() noexcept {
 
 const CorrectedHand& HandCorrector::update(const HandPose& tracked, const Object& object,
                                            std::int64_t time_ns) noexcept {
-  result_ = {tracked, HandStatus::free, {}, {}};
-  if (!is_usable(tracked)) {
-    result_.status = HandStatus::untracked;
+  std::optional<HandFault> fault = fault_of(tracked);
+  if (!fault) {
+    correct(tracked, object, time_ns);
     return result_;
   }
-  if (options_.method == Method::none) return result_;
+  const HandPose unit = with_unit_rotations(tracked);
+  fault = fault_of(unit);
+  if (!fault) {
+    correct(unit, object, time_ns);
+  } else {
+    result_ = {tracked, HandStatus::untracked, fault, {}, {}};
+  }
+  return result_;
+}
+
+void HandCorrector::correct(const HandPose& tracked, const Object& object,
+                            std::int64_t time_ns) noexcept {
+  result_ = {tracked, HandStatus::free, {}, {}, {}};
+  if (options_.method == Method::none) return;
   if (last_ && is_just_before(time_ns, last_->time_ns)) time_ns = last_->time_ns;
   start_frame(tracked, time_ns);
   if (options_.method == Method::paper) correct_by_paper(tracked, object, time_ns);
   if (options_.method == Method::nade) settle(tracked, object, time_ns);
-  return result_;
 }
 
 void HandCorrector::correct_by_paper(const HandPose& tracked, const Object& object,

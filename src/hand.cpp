@@ -44,7 +44,14 @@ constexpr std::array<JointNames, kJointCount> kNames{{
 constexpr double kLongestHand_m = 0.5;
 /// Numbers are too coarse beyond, or distances not finite.
 constexpr double kFarthest_m = 1e6;
-constexpr double kUnitTolerance = 1e-3;
+constexpr double kShortestHand_m = 1e-3;
+constexpr double kUnitTolerance = 1e-3;  // of the squared length
+constexpr double kShortestRotation = 0.5;
+constexpr double kLongestRotation = 2.0;
+
+bool is_unit(const Quat& rotation) {
+  return std::abs(rotation.squaredNorm() - 1.0) <= kUnitTolerance;
+}
 
 }  // namespace
 
@@ -71,16 +78,42 @@ std::optional<Joint> joint_from_webxr_name(std::string_view name) {
   return joint_at(static_cast<std::size_t>(found - kNames.begin()));
 }
 
-bool is_usable(const HandPose& hand) noexcept {
+std::string_view name_of(HandFault fault) {
+  constexpr std::array<std::string_view, 5> kFaultNames{
+      "a joint is not finite", "a joint is not turned by a rotation",
+      "the wrist is 1000 km or more from the origin",
+      "a joint is half a metre or more from the wrist", "the hand has no length"};
+  return kFaultNames[static_cast<std::size_t>(fault)];
+}
+
+std::optional<HandFault> fault_of(const HandPose& hand) noexcept {
+  bool finite = true;
+  bool unit = true;
+  bool near = true;
   const Vec3& wrist = hand[Joint::wrist].position;
-  if (!(wrist.norm() < kFarthest_m)) return false;
-  for (std::size_t i = 0; i < kJointCount; ++i) {
-    const Pose& joint = hand.joints[i];
-    if (!joint.position.allFinite() || !joint.rotation.coeffs().allFinite()) return false;
-    if (std::abs(joint.rotation.squaredNorm() - 1.0) > kUnitTolerance) return false;
-    if (!((joint.position - wrist).norm() < kLongestHand_m)) return false;
+  for (const Pose& joint : hand.joints) {
+    finite = finite && joint.position.allFinite() && joint.rotation.coeffs().allFinite();
+    unit = unit && is_unit(joint.rotation);
+    near = near && (joint.position - wrist).norm() < kLongestHand_m;
   }
-  return true;
+  if (!finite) return HandFault::not_finite;
+  if (!unit) return HandFault::rotation_not_unit;
+  if (!(wrist.norm() < kFarthest_m)) return HandFault::wrist_far;
+  if (!near) return HandFault::joint_far;
+  if (hand_length(hand) < kShortestHand_m) return HandFault::no_length;
+  return std::nullopt;
+}
+
+bool is_usable(const HandPose& hand) noexcept { return !fault_of(hand); }
+
+HandPose with_unit_rotations(const HandPose& hand) noexcept {
+  HandPose result = hand;
+  for (Pose& joint : result.joints) {
+    const double length = joint.rotation.norm();
+    const bool can_be = length >= kShortestRotation && length <= kLongestRotation;
+    if (can_be && !is_unit(joint.rotation)) joint.rotation.coeffs() /= length;
+  }
+  return result;
 }
 
 double hand_length(const HandPose& hand) noexcept {

@@ -63,7 +63,7 @@ TEST_F(CliMistake, NumbersThatCannotBeAreNamed) {
     expect_misuse(nade(correct + option + " nan"), option + std::string(": expected "));
   }
   expect_misuse(nade(correct + "--softness 21"),
-                "--softness: expected a number from 0 to 20, found '21'");
+                "--softness: expected metres from 0 to 0.02, found '21'");
   for (const char* option :
        {"--speed", "--depth", "--tilt", "--duration", "--rate", "--hand-scale"}) {
     expect_misuse(nade(std::string("synth -o out.jsonl --object plane ") + option + " nan"),
@@ -336,6 +336,21 @@ TEST_F(CliMistake, UnwritableOutputIsNamed) {
   }
   EXPECT_EQ(files(), (std::vector<std::string>{"file", "folder", "in.jsonl"}));
   EXPECT_TRUE(std::filesystem::is_empty(path("folder")));
+}
+
+TEST_F(CliMistake, ARecordingIsNotWrittenUnderAnotherKindsName) {
+  make_stroke("in.jsonl");
+  for (const char* out : {"out.png", "out.json", "out.obj.gz", "out.jsonl.zip"}) {
+    const std::string expected =
+        std::string("--output: expected a name ending in .jsonl or .jsonl.gz, found '") + out;
+    expect_misuse(nade(std::string("correct in.jsonl --object plane -o ") + out), expected);
+    expect_misuse(nade(std::string("convert in.jsonl -o ") + out), expected);
+    expect_misuse(nade(std::string("synth --object plane -o ") + out), expected);
+  }
+  EXPECT_EQ(files(), std::vector<std::string>{"in.jsonl"});
+  for (const char* out : {"out", "OUT.JSONL.GZ", "/dev/null"}) {
+    EXPECT_EQ(nade(std::string("convert in.jsonl -o ") + out).status, 0) << out;
+  }
 }
 
 TEST_F(CliMistake, FullDiskIsAnError) {

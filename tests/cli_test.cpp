@@ -87,17 +87,22 @@ TEST_F(Cli, CutOffGzipIsReadAsFarAsItGoes) {
 TEST_F(Cli, BonesWithoutLengthGiveFiniteHands) {
   make_stroke("in.jsonl");
   const auto lines = lines_of(read_file(path("in.jsonl")));
-  for (const std::size_t from : {std::size_t{6}, std::size_t{0}}) {
+  const auto in_one_point = [&](std::size_t from, std::size_t to) {
     std::string text = lines[0] + "\n";
     for (std::size_t i = 1; i < lines.size(); ++i) {
       auto frame = nlohmann::json::parse(lines[i]);
       auto& joints = frame["right"]["joints"];
-      const std::size_t to = from == 0 ? 26 : 11;  // of the index finger
       for (std::size_t joint = from; joint < to; ++joint) {
         for (std::size_t axis = 0; axis < 3; ++axis) joints[joint][axis] = joints[from][axis];
       }
       text += frame.dump() + "\n";
     }
+    return text;
+  };
+  // The index finger; and what lies beyond the middle knuckle, with ring and little finger.
+  for (const auto& [from, to] :
+       std::vector<std::pair<std::size_t, std::size_t>>{{6, 11}, {13, 26}}) {
+    const std::string text = in_one_point(from, to);
     write_file(path("point.jsonl"), text);
     const Ran ran = nade("correct point.jsonl -o out.jsonl --object sphere");
     ASSERT_EQ(ran.status, 0) << ran.err;
@@ -113,6 +118,12 @@ TEST_F(Cli, BonesWithoutLengthGiveFiniteHands) {
     EXPECT_EQ(nade("measure point.jsonl out.jsonl --object sphere").status, 0);
     EXPECT_EQ(nade("inspect out.jsonl").status, 0);
   }
+  write_file(path("point.jsonl"), in_one_point(0, 26));
+  const Ran ran = nade("correct point.jsonl -o out.jsonl --object sphere");
+  EXPECT_EQ(ran.status, 0);
+  EXPECT_NE(ran.err.find("the hand has no length"), std::string::npos) << ran.err;
+  EXPECT_NE(ran.err.find("no frame has a hand"), std::string::npos) << ran.err;
+  EXPECT_EQ(read_file(path("out.jsonl")).find("right\":{"), std::string::npos);
 }
 
 TEST_F(Cli, AKilledProgramLeavesNothing) {
@@ -187,6 +198,58 @@ TEST_F(Cli, PipesCarryNothingButTheRecording) {
   ASSERT_GT(lines.size(), 5u);
   EXPECT_EQ(nlohmann::json::parse(lines[0])["format"], "nade-recording");
   for (const auto& line : lines) EXPECT_TRUE(nlohmann::json::accept(line)) << line;
+}
+
+TEST_F(Cli, TouchingNothingIsSaid) {
+  make_stroke("in.jsonl");
+  Ran ran = nade("correct in.jsonl -o out.jsonl --object plane --at 0,-0.5,0");
+  EXPECT_EQ(ran.status, 0);
+  EXPECT_NE(ran.err.find("no hand touches plane: the nearest palm or fingertip is 4"),
+            std::string::npos)
+      << ran.err;
+  EXPECT_NE(ran.err.find("--press"), std::string::npos);
+  ran = nade("correct in.jsonl -o out.jsonl --object plane --at 0,-80,0");
+  EXPECT_NE(ran.err.find("different units"), std::string::npos) << ran.err;
+  EXPECT_EQ(nade("correct in.jsonl -o out.jsonl --object plane --method none").err, "");
+}
+
+TEST_F(Cli, SoftnessIsInMetresAndWasInMillimetres) {
+  make_stroke("in.jsonl");
+  for (const char* softness : {"0.005", "5mm", "5"}) {
+    ASSERT_EQ(
+        nade(std::string("correct in.jsonl -o out.jsonl --object plane --softness ") + softness)
+            .status,
+        0);
+    const auto header = nlohmann::json::parse(lines_of(read_file(path("out.jsonl")))[0]);
+    EXPECT_EQ(header["softness"], 0.005) << softness;
+  }
+}
+
+/// A program that is killed leaves nothing behind.
+TEST_F(Cli, AKeptInputHasNoName) {
+  make_stroke("in.jsonl");
+  const Ran ran = shell(
+      "mkdir tmp; (cat in.jsonl; sleep 1) | "
+      "TMPDIR=$PWD/tmp \"$NADE\" correct - -o out.jsonl --object plane --press 0.01 & "
+      "sleep 0.5; ls -A tmp; wait");
+  EXPECT_EQ(ran.out, "");
+  EXPECT_EQ(ran.err, "");
+  EXPECT_EQ(files(), (std::vector<std::string>{"in.jsonl", "out.jsonl", "tmp"}));
+}
+
+TEST_F(Cli, TheMeshOfARecordingIsFoundBesideIt) {
+  make_stroke("in.jsonl");
+  ASSERT_EQ(shell("mkdir a b; printf 'v -1 0 -1\nv -1 0 1\nv 1 0 1\nv 1 0 -1\nf 1 2 3 4\n' "
+                  ">a/sheet.obj")
+                .status,
+            0);
+  ASSERT_EQ(nade("correct in.jsonl -o a/out.jsonl --object a/sheet.obj").status, 0);
+  const auto header = nlohmann::json::parse(lines_of(read_file(path("a/out.jsonl")))[0]);
+  EXPECT_EQ(header["object"], "sheet.obj");
+  EXPECT_EQ(nade("measure in.jsonl a/out.jsonl").status, 0);
+  ASSERT_EQ(shell("mv a/out.jsonl b").status, 0);
+  expect_failure(nade("measure in.jsonl b/out.jsonl"), "--object says where it is");
+  EXPECT_EQ(nade("measure in.jsonl b/out.jsonl --object a/sheet.obj").status, 0);
 }
 
 TEST_F(Cli, InspectReadsStandardInput) {

@@ -65,6 +65,39 @@ TEST_P(CorrectorOfAnyMethod, AnUntouchedHandComesBackBitEqual) {
   }
 }
 
+TEST(Corrector, SaysWhyAHandCannotBeUsed) {
+  for (const Method method : {Method::none, Method::paper, Method::nade}) {
+    HandCorrector corrector(by(method));
+    HandPose hand = pressed_hand(0.02);
+    EXPECT_FALSE(corrector.update(hand, plane(), 0).fault);
+    for (Pose& joint : hand.joints) joint.position = hand[Joint::wrist].position;
+    const CorrectedHand& point = corrector.update(hand, plane(), kFrame_ns);
+    EXPECT_EQ(point.status, HandStatus::untracked);
+    EXPECT_EQ(point.fault, HandFault::no_length);
+    EXPECT_TRUE(same_bits(point.pose, hand));
+    hand = pressed_hand(0.02);
+    hand[Joint::palm].rotation.coeffs() *= 0.3;
+    EXPECT_EQ(corrector.update(hand, plane(), 2 * kFrame_ns).fault, HandFault::rotation_not_unit);
+  }
+}
+
+TEST(Corrector, RotationsOfFloatsAreTaken) {
+  for (const Method method : {Method::paper, Method::nade}) {
+    HandCorrector exact(by(method));
+    HandCorrector rough(by(method));
+    const HandPose hand = pressed_hand(0.02);
+    HandPose longer = hand;
+    for (Pose& joint : longer.joints) joint.rotation.coeffs() *= 1.0006;
+    const CorrectedHand& expected = exact.update(hand, plane(), 0);
+    const CorrectedHand& result = rough.update(longer, plane(), 0);
+    EXPECT_EQ(result.status, HandStatus::corrected);
+    for (std::size_t i = 0; i < kJointCount; ++i) {
+      EXPECT_LT((result.pose.joints[i].position - expected.pose.joints[i].position).norm(), 1e-9);
+      EXPECT_NEAR(result.pose.joints[i].rotation.norm(), 1.0, 1e-9);
+    }
+  }
+}
+
 TEST(Corrector, MethodNonePassesTheHandThrough) {
   HandCorrector corrector(by(Method::none));
   const HandPose hand = pressed_hand(0.03);

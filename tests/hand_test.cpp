@@ -57,6 +57,42 @@ TEST(Hand, SoDoesAHandFarFromTheWorld) {
   }
 }
 
+TEST(Hand, AFaultSaysWhyAHandIsUnusable) {
+  const HandPose good = test::sample_hand();
+  EXPECT_FALSE(fault_of(good));
+  HandPose hand = good;
+  hand[Joint::palm].position.x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(fault_of(hand), HandFault::not_finite);
+  hand = good;
+  hand[Joint::palm].rotation.coeffs() *= 1.0006;
+  EXPECT_EQ(fault_of(hand), HandFault::rotation_not_unit);
+  hand = test::placed_hand(good, {2e6, 0.0, 0.0});
+  EXPECT_EQ(fault_of(hand), HandFault::wrist_far);
+  hand = good;
+  hand[Joint::index_tip].position.z() -= 0.6;
+  EXPECT_EQ(fault_of(hand), HandFault::joint_far);
+  hand = good;
+  for (Pose& joint : hand.joints) joint.position.setZero();
+  EXPECT_EQ(fault_of(hand), HandFault::no_length);
+}
+
+TEST(Hand, RotationsAreMadeUnitWhereTheyAreMeantTo) {
+  HandPose hand = test::sample_hand();
+  const HandPose good = hand;
+  hand[Joint::palm].rotation.coeffs() *= 1.0006;
+  hand[Joint::thumb_tip].rotation.coeffs() *= 1.9;
+  hand[Joint::ring_tip].rotation.coeffs() *= 1.0001;
+  const HandPose unit = with_unit_rotations(hand);
+  EXPECT_TRUE(is_usable(unit));
+  EXPECT_NEAR(unit[Joint::thumb_tip].rotation.angularDistance(good[Joint::thumb_tip].rotation), 0.0,
+              1e-7);
+  EXPECT_EQ(unit[Joint::ring_tip], hand[Joint::ring_tip]) << "bit for bit";
+  for (const double factor : {0.0, 0.4, 2.1}) {
+    hand[Joint::palm].rotation.coeffs() = factor * good[Joint::palm].rotation.coeffs();
+    EXPECT_FALSE(is_usable(with_unit_rotations(hand))) << factor;
+  }
+}
+
 TEST(Hand, MirroringTwiceGivesTheHandBack) {
   const HandPose hand = test::placed_hand(test::sample_hand(), {0.1, 0.2, 0.3},
                                           Quat(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized())));

@@ -214,12 +214,22 @@ TEST_F(LeapImport, BadInputIsNamed) {
   EXPECT_TRUE(contains(read(recording).error, "frames[1]: hands[0]: type: expected \"left\""));
   recording["frames"][1] = 5;
   EXPECT_TRUE(contains(read(recording).error, "frames[1]: expected a frame, found a number"));
-  EXPECT_TRUE(
-      contains(read_whole(given("in.json", R"({"frames":[{"timestamp":1},nonsense]})")).error,
-               "frames[1]: column 2: expected valid JSON"));
+  EXPECT_TRUE(contains(
+      read_whole(given("in.json", R"({"frames":[{"timestamp":1,"hands":[]},nonsense]})")).error,
+      "frames[1]: column 2: expected valid JSON"));
   EXPECT_TRUE(
       contains(read_whole(given("in.json", R"({"metadata":{},"frames":[{"times)")).warning(),
                "frames[0]: cut off"));
+}
+
+TEST_F(LeapImport, ResultsOfMediaPipeAreRefusedByName) {
+  for (const char* text : {R"([{"timestamp":0,"landmarks":[[{"x":0.5,"y":0.5,"z":0.1}]]}])",
+                           R"([{"worldLandmarks":[[]],"handedness":[]}])",
+                           R"({"frames":[{"timestamp":0,"multiHandLandmarks":[]}]})"}) {
+    EXPECT_TRUE(contains(read_whole(given("in.json", text)).error, "results of MediaPipe")) << text;
+  }
+  EXPECT_TRUE(contains(read_whole(given("in.json", R"([{"timestamp":0,"pose":[]}])")).error,
+                       "in.json: frames[0]: expected the \"hands\" of a raw LeapJS frame"));
 }
 
 TEST_F(LeapImport, NothingMayFollowTheFrames) {
@@ -231,11 +241,12 @@ TEST_F(LeapImport, NothingMayFollowTheFrames) {
   EXPECT_TRUE(contains(error(text + "\n" + text),
                        "in.json: expected the file's end after the frames, found '{'"));
   EXPECT_TRUE(contains(error(stored()["frames"].dump() + "xyz"), "file's end after the frames"));
-  EXPECT_TRUE(contains(error(R"({"frames":[{"timestamp":1}]xyz})"),
+  EXPECT_TRUE(contains(error(R"({"frames":[{"timestamp":1,"hands":[]}]xyz})"),
                        "in.json: expected the object's end after the frames, found 'x'"));
-  EXPECT_TRUE(contains(error(R"({"frames":[{"timestamp":1}],"frames":[]})"),
+  EXPECT_TRUE(contains(error(R"({"frames":[{"timestamp":1,"hands":[]}],"frames":[]})"),
                        "in.json: expected one array \"frames\", found a second"));
-  const WholeRecording cut = read_whole(given("in.json", R"({"frames":[{"timestamp":1}],"a":)"));
+  const WholeRecording cut =
+      read_whole(given("in.json", R"({"frames":[{"timestamp":1,"hands":[]}],"a":)"));
   EXPECT_TRUE(contains(cut.warning(), "in.json: cut off after the frames")) << cut.error;
 }
 

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "nade/io/assets.h"
+#include "support/scratch_folder.h"
 
 namespace nade {
 namespace {
@@ -126,6 +127,28 @@ TEST(ObjectFile, PlacingSurvivesAHeader) {
   EXPECT_NEAR((back.placement.pose.position - placing.placement.pose.position).norm(), 0, 1e-15);
   EXPECT_LT(back.placement.pose.rotation.angularDistance(placing.placement.pose.rotation), 1e-7);
   EXPECT_EQ(back.placement.scale, 1.25);
+}
+
+/// No one's folders travel with a recording.
+TEST(ObjectFile, AHeaderHasTheNameOfAMeshFileOnly) {
+  EXPECT_EQ(object_name("/home/me/cat.GLB:alive:Walk/slow"), "cat.GLB:alive:Walk/slow");
+  EXPECT_EQ(object_name("../models/cat.obj"), "cat.obj");
+  EXPECT_EQ(object_name("sphere:0.06"), "sphere:0.06");
+  EXPECT_EQ(object_name("dog:alive"), "dog:alive");
+  const std::string json = with_placing("{}", {"/home/me/cat.obj", {}});
+  EXPECT_EQ(json.find("/home"), std::string::npos);
+}
+
+TEST(ObjectFile, TheMeshOfAHeaderIsTheOneBesideTheRecording) {
+  const test::ScratchFolder folder;
+  std::ofstream(folder.path("cat.obj")) << "v 0 0 0\n";
+  const auto object = [&](const std::string& spec) {
+    const auto read = placing_from(R"({"object":")" + spec + R"("})", folder.path("stroke.jsonl"));
+    return (*read)->object;
+  };
+  EXPECT_EQ(object("cat.obj"), folder.path("cat.obj"));
+  EXPECT_EQ(object("/elsewhere/cat.obj"), folder.path("cat.obj")) << "as it was written before";
+  EXPECT_EQ(object("/elsewhere/dog.obj"), "/elsewhere/dog.obj");
 }
 
 TEST(ObjectFile, HeaderWithoutAnObjectHasNoPlacing) {

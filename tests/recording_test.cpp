@@ -39,13 +39,16 @@ void expect_same_bits(const HandPose& a, const HandPose& b) {
   }
 }
 
-/// A frame line as JSON, to be spoilt.
-json frame_json(std::int64_t time_ns) {
+/// A frame line as JSON, to be spoilt. There are a hundred in a second.
+json frame_json(std::int64_t number) {
   json joints = json::array();
-  for (std::size_t i = 0; i < kJointCount; ++i) {
-    joints.push_back({0.01 * static_cast<double>(i), 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.01});
+  const HandPose hand = test::sample_hand();
+  for (const Pose& joint : hand.joints) {
+    const Vec3& p = joint.position;
+    const Quat& q = joint.rotation;
+    joints.push_back({p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w(), 0.01});
   }
-  return {{"t", time_ns}, {"right", {{"joints", joints}, {"confidence", 0.9}}}};
+  return {{"t", 10'000'000 * number}, {"right", {{"joints", joints}, {"confidence", 0.9}}}};
 }
 
 class Recording : public test::RecordingFiles {
@@ -75,7 +78,7 @@ TEST_F(Recording, ComesBackBitEqual) {
     ASSERT_TRUE(writer.ok());
     for (std::size_t i = 0; i < frames.size(); ++i) {
       RecordedFrame& frame = frames[i];
-      frame.time_ns = 1'700'000'000'000'000'001 + static_cast<std::int64_t>(i);
+      frame.time_ns = 1'700'000'000'000'000'001 + 11'111'111 * static_cast<std::int64_t>(i);
       if (i % 3 != 0) frame.hands[0] = random_hand(Handedness::left, random);
       if (i % 5 != 0) frame.hands[1] = random_hand(Handedness::right, random);
       if (frame.hands[1]) {
@@ -109,7 +112,8 @@ TEST_F(Recording, ComesBackBitEqual) {
 TEST_F(Recording, StoredVersionOneStillLoads) {
   const WholeRecording whole = read_whole(NADE_TEST_DATA_DIR "/recording_v1.jsonl");
   EXPECT_EQ(whole.error, "");
-  EXPECT_TRUE(whole.warnings.empty());
+  ASSERT_EQ(whole.warnings.size(), 2u);
+  EXPECT_TRUE(contains(whole.warnings[0], "left hand: all joints are turned alike"));
   EXPECT_EQ(whole.format, RecordingFormat::nade);
   EXPECT_EQ(whole.header.source, "leap");
   EXPECT_EQ(json::parse(whole.header.unknown_json)["object"]["name"], "plane");
@@ -309,7 +313,8 @@ TEST_F(Recording, WrongJsonIsAnErrorThatNamesItsColumn) {
 TEST_F(Recording, HandThatIsNotFiniteIsLeftOut) {
   for (const char* number : {"null", "NaN", "-Infinity", "1e999", "-1e999"}) {
     std::string line = frame_json(5).dump();
-    line.replace(line.find("[[0.0"), 5, std::string("[[") + number);
+    const std::size_t first = line.find("[[") + 2;
+    line.replace(first, line.find(',', first) - first, number);
     const WholeRecording whole = read_lines({line, frame_json(6).dump()});
     EXPECT_EQ(whole.error, "") << number;
     ASSERT_EQ(whole.frames.size(), 3u);
@@ -333,6 +338,93 @@ TEST_F(Recording, UnusableHandsAreCounted) {
   EXPECT_TRUE(contains(whole.warning(), "and 1 more")) << whole.warning();
 }
 
+TEST_F(Recording, TheJointsOfWebXrAreTakenWithoutThePalm) {
+  json frame = frame_json(5);
+  frame["right"]["joints"].erase(0);
+  const WholeRecording whole = read_lines({frame.dump()});
+  EXPECT_EQ(whole.error, "");
+  EXPECT_TRUE(contains(whole.warning(), "line 3: right: 25 joints")) << whole.warning();
+  ASSERT_EQ(whole.frames.size(), 2u);
+  const HandPose& hand = whole.frames[1].hands[1]->pose;
+  const HandPose& full = whole.frames[0].hands[1]->pose;
+  EXPECT_EQ(hand[Joint::little_tip], full[Joint::little_tip]);
+  EXPECT_EQ(hand[Joint::palm], palm_from_middle_metacarpal(full));
+  for (const std::size_t lost : {1, 7, 12, 17, 25}) {
+    frame = frame_json(5);
+    frame["right"]["joints"].erase(lost);
+    EXPECT_EQ(error_of(frame), "right: joints: expected 26 joints, found 25") << lost;
+  }
+}
+
+/// What a whole recording looks like to be.
+TEST_F(Recording, AnotherConventionIsNamed) {
+  const auto warning = [&](const auto& spoil) {
+    std::string text = kHeader + "\n";
+    for (std::int64_t i = 0; i < 9; ++i) {
+      json frame = frame_json(i);
+      spoil(frame);
+      text += frame.dump() + "\n";
+    }
+    const WholeRecording whole = read_whole(given("in.jsonl", text));
+    EXPECT_EQ(whole.error, "");
+    return whole.warnings.empty() ? std::string() : whole.warnings.back();
+  };
+  const auto each = [](json& frame, const auto& spoil_joint) {
+    for (json& joint : frame["right"]["joints"]) spoil_joint(joint);
+  };
+  EXPECT_EQ(warning([](json&) {}), "");
+  for (const auto& [divisor, unit] : std::vector<std::pair<std::int64_t, std::string>>{
+           {1'000, "microseconds"}, {1'000'000, "milliseconds"}}) {
+    EXPECT_TRUE(contains(
+        warning([d = divisor](json& frame) { frame["t"] = frame["t"].get<std::int64_t>() / d; }),
+        "in.jsonl: the times look to be in " + unit));
+  }
+  EXPECT_TRUE(contains(warning([&](json& frame) {
+                         each(frame, [](json& joint) {
+                           joint = {joint[0], joint[1], joint[2], joint[6],
+                                    joint[3], joint[4], joint[5], joint[7]};
+                         });
+                       }),
+                       "right hand: the quaternions look to have w first"));
+  for (const auto& [factor, unit] : std::vector<std::pair<double, std::string>>{
+           {1e3, "millimetres"}, {1e2, "centimetres"}, {1.0 / 0.0254, "inches"}}) {
+    EXPECT_TRUE(contains(warning([&, f = factor](json& frame) {
+                           each(frame, [f](json& joint) {
+                             for (std::size_t k = 0; k < 3; ++k) {
+                               joint[k] = f * joint[k].get<double>();
+                             }
+                           });
+                         }),
+                         "right hand: the positions look to be in " + unit));
+  }
+  EXPECT_TRUE(contains(warning([](json& frame) {
+                         frame["left"] = frame["right"];
+                         frame.erase("right");
+                       }),
+                       "left hand: the hand looks to be of the other side"));
+}
+
+TEST_F(Recording, AHandInOnePointIsLeftOut) {
+  json frame = frame_json(5);
+  for (json& joint : frame["right"]["joints"]) {
+    for (std::size_t k = 0; k < 3; ++k) joint[k] = 0.0;
+  }
+  const WholeRecording whole = read_lines({frame.dump()});
+  EXPECT_FALSE(whole.frames[1].hands[1].has_value());
+  EXPECT_TRUE(contains(whole.warning(), "line 3: right: the hand has no length"));
+}
+
+TEST_F(Recording, ABombIsRefused) {
+  const std::string bomb = kHeader + "\n" + std::string(std::size_t{100} << 20, '\n');
+  ASSERT_TRUE(write_whole(path("bomb.jsonl.gz"), bomb).ok());
+  EXPECT_TRUE(contains(read_whole(path("bomb.jsonl.gz")).error,
+                       "bomb.jsonl.gz: expected a recording, found gzip data that unpack to more"));
+  std::string many = kHeader + "\n{\"t\":1,\"a\":[0";
+  for (int i = 0; i < 1'000'000; ++i) many += ",0";
+  EXPECT_TRUE(contains(read_whole(given("many.jsonl", many + "]}\n")).error,
+                       "line 2: expected at most 1000000 values"));
+}
+
 TEST_F(Recording, QuaternionsAreMadeUnit) {
   json frame = frame_json(5);
   frame["right"]["joints"][9][6] = 1.2;
@@ -345,7 +437,8 @@ TEST_F(Recording, QuaternionsAreMadeUnit) {
 
 TEST_F(Recording, ZeroLengthBonesAreRead) {
   json frame = frame_json(5);
-  for (json& joint : frame["right"]["joints"]) joint = frame["right"]["joints"][0];
+  json& joints = frame["right"]["joints"];
+  for (std::size_t i = 7; i <= 10; ++i) joints[i] = joints[6];
   const WholeRecording whole = read_lines({frame.dump()});
   EXPECT_EQ(whole.error, "");
   EXPECT_TRUE(whole.frames[1].hands[1].has_value());

@@ -182,7 +182,7 @@ TEST_F(WrittenRecording, WhatWasFlushedCanBeReadBeforeTheEnd) {
     ASSERT_TRUE(writer->write(frame).ok());
     ASSERT_TRUE(writer->flush().ok());
     EXPECT_EQ(read_whole(path(name)).frames.size(), 1u) << name;
-    frame.time_ns = 1;
+    frame.time_ns = 11111111;
     ASSERT_TRUE(writer->write(frame).ok());
     ASSERT_TRUE(writer->finish().ok());
     const WholeRecording whole = read_whole(path(name));

@@ -65,6 +65,13 @@ TEST(StudyPlan, ErrorsNameThePlace) {
   EXPECT_EQ(error_of(replaced(good, "nade-study-plan", "something")),
             "plan.json: format: expected \"nade-study-plan\", found \"something\"");
   EXPECT_EQ(error_of("{\n\"format\": nade\n}"), "plan.json: line 2: expected valid JSON");
+  EXPECT_EQ(error_of(replaced(good, "\"trial_s\": 30.0", "\"trial_s\": 1e999"))
+                .rfind("plan.json: line ", 0),
+            0u);
+  EXPECT_EQ(error_of("{\n\"seed\": \"1e999\",\n\"a\": -1e999}"),
+            "plan.json: line 3: expected numbers that a double can hold, found a larger one");
+  EXPECT_EQ(error_of(std::string(100000, '[')),
+            "plan.json: expected values nested at most 64 deep, found more");
   EXPECT_EQ(error_of("[]"), "plan.json: expected an object, found an array of 0");
   EXPECT_EQ(read_plan("/nowhere/plan.json").error().message,
             "/nowhere/plan.json: expected a study's plan, found no such file");

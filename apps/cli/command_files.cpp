@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "commands.h"
+#include "nade/io/mesh_file.h"
 
 namespace nade::cli {
 namespace {
@@ -46,6 +47,16 @@ Status check_apart(const std::vector<NamedFile>& outputs, const std::vector<Name
     taken.push_back(output);
   }
   return ok_status();
+}
+
+Status check_recording_name(const std::string& option, const std::string& name) {
+  std::error_code ignored;
+  if (name == kStandardStream || fs::is_other(name, ignored)) return ok_status();
+  std::string ending = ending_of(name);
+  if (ending == ".gz") ending = ending_of(fs::path(name).stem().string());
+  if (ending.empty() || ending == ".jsonl") return ok_status();
+  return misuse(
+      fmt::format("{}: expected a name ending in .jsonl or .jsonl.gz, found '{}'", option, name));
 }
 
 bool lies_in(const std::string& path, const std::string& folder) {

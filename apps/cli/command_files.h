@@ -22,6 +22,10 @@ struct NamedFile {
 [[nodiscard]] Status check_apart(const std::vector<NamedFile>& outputs,
                                  const std::vector<NamedFile>& inputs);
 
+/// Refuses a recording's name with an ending that says it is something else. One without an
+/// ending, standard output, pipes and devices are none.
+[[nodiscard]] Status check_recording_name(const std::string& option, const std::string& name);
+
 /// Whether a path is a folder, or lies in it.
 [[nodiscard]] bool lies_in(const std::string& path, const std::string& folder);
 

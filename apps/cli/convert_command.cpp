@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "command_files.h"
 #include "commands.h"
 #include "console.h"
 #include "nade/io/recording.h"
@@ -31,6 +32,8 @@ RecordingHeader converted_header(const RecordingReader& reader) {
 }
 
 Status run_convert(const ConvertArguments& arguments) {
+  const Status name = check_recording_name("--output", arguments.output);
+  if (!name) return name;
   Result<RecordingReader> reader = RecordingReader::open(arguments.input);
   if (!reader) return reader.error();
   Result<RecordingWriter> writer =

@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -23,6 +26,9 @@
 namespace nade::cli {
 namespace {
 
+/// Farther than any room's table.
+constexpr double kFar_m = 5.0;
+
 struct CorrectArguments {
   std::string input;
   std::string output;
@@ -37,7 +43,25 @@ struct Summary {
   std::size_t frames = 0;
   std::array<std::size_t, 4> hands{};  ///< by HandStatus
   QuantileSketch solve_us;
+  /// How near a palm or a fingertip came to the object while nothing had touched it, metres.
+  double nearest_m = std::numeric_limits<double>::infinity();
+
+  [[nodiscard]] std::size_t count(HandStatus status) const {
+    return hands[static_cast<std::size_t>(status)];
+  }
 };
+
+void look_how_near(const HandPose& hand, const Object& object, Summary& summary) {
+  SurfaceHint hint;
+  for (std::size_t i = 0; i < kPartCount; ++i) {
+    const std::size_t joint = index_of(joint_of(part_at(i)));
+    const auto near = object.closest_point(hand.joints[joint].position,
+                                           std::numeric_limits<double>::infinity(), hint);
+    if (!near) continue;
+    const double gap_m = std::max(near->signed_distance - hand.radius[joint], 0.0);
+    summary.nearest_m = std::min(summary.nearest_m, gap_m);
+  }
+}
 
 RecordingHeader corrected_header(const RecordingHeader& tracked, const CorrectArguments& arguments,
                                  const PlacedObject& placed) {
@@ -58,6 +82,7 @@ void correct_hand(RecordedHand& hand, HandCorrector& corrector, const Object& ob
   const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
   summary.solve_us.add(took.count());
   ++summary.hands[static_cast<std::size_t>(corrected.status)];
+  if (summary.count(HandStatus::corrected) == 0) look_how_near(hand.pose, object, summary);
   hand.pose = corrected.pose;
   hand.status = corrected.status;
   for (std::size_t i = 0; i < kPartCount; ++i) {
@@ -119,16 +144,35 @@ nlohmann::ordered_json as_json(const Summary& summary, const CorrectArguments& a
   return json;
 }
 
+/// Why nothing was corrected, and what to try; none where something was, or nothing was to be.
+std::optional<std::string> why_nothing(const Summary& summary, const CorrectArguments& arguments) {
+  if (arguments.method.corrector.method == Method::none && !arguments.method.literal) {
+    return std::nullopt;
+  }
+  if (summary.count(HandStatus::corrected) > 0) return std::nullopt;
+  if (!std::isfinite(summary.nearest_m)) return "no frame has a hand, nothing is corrected";
+  const char* advice = "--press 0.02 puts the object under the palms, --at moves it";
+  if (arguments.press_m) advice = "a larger --press puts it deeper into the palms";
+  if (summary.nearest_m > kFar_m) {
+    advice =
+        "hands and object may be in different units (--scale) or places; --press 0.02 puts the "
+        "object under the palms";
+  }
+  return fmt::format("no hand touches {}: the nearest palm or fingertip is {} away; {}",
+                     *arguments.object.object,
+                     summary.nearest_m < 1.0 ? fmt::format("{:.1f} mm", 1e3 * summary.nearest_m)
+                                             : fmt::format("{:.4g} m", summary.nearest_m),
+                     advice);
+}
+
 std::string as_line(const Summary& summary, const CorrectArguments& arguments) {
-  const auto count = [&](HandStatus status) {
-    return summary.hands[static_cast<std::size_t>(status)];
-  };
   return fmt::format(
       "{}: {} frames, hands corrected {}, released {}, free {}, untracked {}; a hand took {:.1f} "
       "us (median), {:.1f} us (p99)",
-      arguments.output, summary.frames, count(HandStatus::corrected), count(HandStatus::released),
-      count(HandStatus::free), count(HandStatus::untracked),
-      summary.solve_us.quantile(0.5).value_or(0.0), summary.solve_us.quantile(0.99).value_or(0.0));
+      arguments.output, summary.frames, summary.count(HandStatus::corrected),
+      summary.count(HandStatus::released), summary.count(HandStatus::free),
+      summary.count(HandStatus::untracked), summary.solve_us.quantile(0.5).value_or(0.0),
+      summary.solve_us.quantile(0.99).value_or(0.0));
 }
 
 Status run_on(const CorrectArguments& arguments, const SpooledInput& input) {
@@ -140,6 +184,9 @@ Status run_on(const CorrectArguments& arguments, const SpooledInput& input) {
   }
   const Result<Summary> summary = correct_all(arguments, input, *placed);
   if (!summary) return summary.error();
+  if (const auto why = why_nothing(*summary, arguments)) {
+    warn(fmt::format("{}: {}", input.name(), *why));
+  }
   if (!arguments.json) {
     say(as_line(*summary, arguments));
     return ok_status();
@@ -156,6 +203,8 @@ Status run_correct(const CorrectArguments& arguments) {
   const Status apart = check_apart({{"--output", arguments.output}, {"--json", arguments.json}},
                                    {{"IN", arguments.input}, object_file(arguments.object)});
   if (!apart) return apart;
+  const Status name = check_recording_name("--output", arguments.output);
+  if (!name) return name;
   const Result<SpooledInput> input = arguments.press_m ? SpooledInput::open(arguments.input)
                                                        : SpooledInput::unspooled(arguments.input);
   if (!input) return input.error();

@@ -7,6 +7,7 @@
 #include "choice_option.h"
 #include "commands.h"
 #include "nade/io/hand_file.h"
+#include "number_list.h"
 #include "number_options.h"
 
 namespace nade::cli {
@@ -21,6 +22,19 @@ const std::vector<Choice<Method>>& methods() {
   static const std::vector<Choice<Method>> kMethods{
       {"nade", Method::nade}, {"paper", Method::paper}, {"none", Method::none}};
   return kMethods;
+}
+
+/// Metres, or millimetres where it says so. A plain number too large for metres was meant in
+/// millimetres, which were the option's unit before.
+std::optional<double> softness_from_text(std::string text) {
+  const bool mm = text.ends_with("mm");
+  if (mm) text.resize(text.size() - 2);
+  const auto number = parse_numbers<1>(text);
+  if (!number) return std::nullopt;
+  double softness_m = number->front();
+  if (mm || softness_m > kSoftest_m) softness_m *= 0.001;
+  if (!(softness_m >= 0.0 && softness_m <= kSoftest_m)) return std::nullopt;
+  return softness_m;
 }
 
 void add_open_points(CLI::App& command, CorrectorOptions& options) {
@@ -92,12 +106,21 @@ void add_method_options(CLI::App& command, MethodOptions& options) {
   add_choice<Method>(command, kMethod, options.corrector.method, methods(),
                      "how to correct (default nade)");
   command
-      .add_option_function<double>(
+      .add_option_function<std::string>(
           kSoftness,
-          [&options](const double& mm) { options.corrector.settle.softness_m = 0.001 * mm; },
-          "of the object: the skin sinks in by up to so much (method nade; default 0)")
-      ->type_name("MM")
-      ->check(number_in(0.0, 20.0));
+          [&options](const std::string& text) {
+            const std::optional<double> softness_m = softness_from_text(text);
+            if (!softness_m) {
+              throw CLI::ValidationError(
+                  kSoftness,
+                  fmt::format("expected metres from 0 to {}, found '{}'", kSoftest_m, text));
+            }
+            options.corrector.settle.softness_m = *softness_m;
+          },
+          "of the object: the skin sinks in by up to so much, as 0.005 or 5mm (method nade; "
+          "default "
+          "0)")
+      ->type_name("M");
   command
       .add_option(kFriction, options.corrector.settle.friction.coefficient,
                   "to be seen: the hand lags along the surface by up to so many times the pressing "

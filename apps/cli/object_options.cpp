@@ -84,11 +84,17 @@ NamedFile object_file(const ObjectOptions& options) {
 
 Result<PlacedObject> load_placed(const ObjectOptions& options,
                                  const std::optional<ObjectPlacing>& recorded) {
-  const bool same = recorded && (!options.object || *options.object == recorded->object);
+  const bool same = recorded && (!options.object ||
+                                 object_name(*options.object) == object_name(recorded->object));
   if (!options.object && !recorded) {
     return misuse("--object is required: plane, sphere, sphere:RADIUS, dog or a mesh file");
   }
   Result<LoadedObject> loaded = load_object(options.object ? *options.object : recorded->object);
+  if (!loaded && !options.object && loaded.error().code == ErrorCode::not_found) {
+    return Error{ErrorCode::not_found,
+                 fmt::format("{} beside the recording or here; --object says where it is",
+                             loaded.error().message)};
+  }
   if (!loaded) return loaded.error();
   for (const std::string& warning : loaded->warnings) {
     warn(warning);

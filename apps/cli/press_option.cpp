@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "console.h"
 #include "nade/io/recording.h"
 #include "number_options.h"
 
@@ -15,9 +16,14 @@ Result<PalmTrack> read_palms(const std::string& path) {
   while (true) {
     const Result<std::optional<RecordedFrame>> frame = reader->next();
     if (!frame) return frame.error();
-    if (!*frame) return track;
+    if (!*frame) break;
     track.add(**frame);
   }
+  // Why there are no hands: what is done next cannot say it.
+  if (track.frames().empty()) {
+    for (const std::string& warning : reader->warnings()) warn(warning);
+  }
+  return track;
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <memory>
 #include <utility>
 #include <vector>
 
@@ -16,11 +15,6 @@
 
 namespace nade::cli {
 namespace {
-
-struct Close {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, Close>;
 
 bool can_be_read_twice(const std::string& name) {
   std::error_code ignored;
@@ -35,8 +29,8 @@ SpooledInput::SpooledInput(const std::string& name)
 Result<SpooledInput> SpooledInput::open(const std::string& name) {
   SpooledInput input(name);
   if (can_be_read_twice(name)) return input;
-  const File from(name == kStandardStream ? ::fdopen(::dup(STDIN_FILENO), "rb")
-                                          : std::fopen(name.c_str(), "rb"));
+  const SpooledFile from(name == kStandardStream ? ::fdopen(::dup(STDIN_FILENO), "rb")
+                                                 : std::fopen(name.c_str(), "rb"));
   if (!from) {
     return Error{ErrorCode::unreadable, fmt::format("{}: expected to read it, but: {}", input.name_,
                                                     std::strerror(errno))};
@@ -50,8 +44,10 @@ Result<SpooledInput> SpooledInput::open(const std::string& name) {
   };
   const int descriptor = ::mkstemp(input.path_.data());
   if (descriptor < 0) return unwritable();
-  input.ours_ = true;
   std::FILE* const file = ::fdopen(descriptor, "wb");
+  input.ours_.reset(file);
+  // It goes with the program, however that ends.
+  ::unlink(input.path_.c_str());
   if (file == nullptr) {
     ::close(descriptor);
     return unwritable();
@@ -63,30 +59,15 @@ Result<SpooledInput> SpooledInput::open(const std::string& name) {
     if (size == 0) break;
     written = std::fwrite(block.data(), 1, size, file) == size;
   }
-  if (std::fclose(file) != 0 || !written) return unwritable();
+  if (std::fflush(file) != 0 || !written) return unwritable();
+  input.path_ = fmt::format("/proc/self/fd/{}", descriptor);
   return input;
 }
 
 SpooledInput SpooledInput::unspooled(const std::string& name) { return SpooledInput(name); }
 
-SpooledInput::SpooledInput(SpooledInput&& other) noexcept
-    : name_(std::move(other.name_)),
-      path_(std::move(other.path_)),
-      ours_(std::exchange(other.ours_, false)) {}
-
-SpooledInput& SpooledInput::operator=(SpooledInput&& other) noexcept {
-  std::swap(name_, other.name_);
-  std::swap(path_, other.path_);
-  std::swap(ours_, other.ours_);
-  return *this;
-}
-
-SpooledInput::~SpooledInput() {
-  if (ours_) ::unlink(path_.c_str());
-}
-
 std::string SpooledInput::renamed(std::string sentence) const {
-  const std::size_t at = ours_ ? sentence.find(path_) : std::string::npos;
+  const std::size_t at = ours_ != nullptr ? sentence.find(path_) : std::string::npos;
   if (at != std::string::npos) sentence.replace(at, path_.size(), name_);
   return sentence;
 }

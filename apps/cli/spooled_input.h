@@ -1,22 +1,26 @@
 #pragma once
 
+#include <cstdio>
+#include <memory>
 #include <string>
 
 #include "nade/status.h"
 
 namespace nade::cli {
 
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using SpooledFile = std::unique_ptr<std::FILE, CloseFile>;
+
 /// An input that has to be read twice. What can be read but once (standard input, a pipe) is put
-/// into a file first, which goes with this object.
+/// into a file first, which has no name and goes with this object, or with the program.
 class SpooledInput {
  public:
   /// What is not there at all is left to whoever reads it.
   [[nodiscard]] static Result<SpooledInput> open(const std::string& name);
   /// One that is read once only, as it is.
   [[nodiscard]] static SpooledInput unspooled(const std::string& name);
-  SpooledInput(SpooledInput&& other) noexcept;
-  SpooledInput& operator=(SpooledInput&& other) noexcept;
-  ~SpooledInput();
 
   /// Where to read it.
   [[nodiscard]] const std::string& path() const { return path_; }
@@ -32,7 +36,7 @@ class SpooledInput {
 
   std::string name_;
   std::string path_;
-  bool ours_ = false;  ///< the file
+  SpooledFile ours_;
 };
 
 /// How it went, with the same done to an error.

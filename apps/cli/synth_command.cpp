@@ -82,6 +82,8 @@ Status run_synth(const SynthArguments& arguments) {
   const Status apart =
       check_apart({{"--output", arguments.output}}, {object_file(arguments.object)});
   if (!apart) return apart;
+  const Status name = check_recording_name("--output", arguments.output);
+  if (!name) return name;
   SynthOptions options = arguments.synth;
   options.tilt_rad = arguments.tilt_deg * kDegree;
   const Result<PlacedObject> placed = load_placed(arguments.object);

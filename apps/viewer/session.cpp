@@ -185,7 +185,8 @@ Status Session::stand_as_recorded() {
   const auto recorded = placing_from(header.unknown_json, clip_->path());
   if (!recorded) return recorded.error();
   recorded_ = *recorded;
-  const bool fits = *recorded && (keep_ == Keep::no || (*recorded)->object == loaded_->spec);
+  const bool fits = *recorded && (keep_ == Keep::no ||
+                                  object_name((*recorded)->object) == object_name(loaded_->spec));
   if (fits && !placed_by_hand_) {
     press_m_.reset();
     const Status shown = show_object((*recorded)->object, (*recorded)->placement);

@@ -63,6 +63,7 @@ struct CorrectorOptions {
 struct CorrectedHand {
   HandPose pose;  ///< to draw: bit for bit the tracked one where there is nothing to correct
   HandStatus status = HandStatus::untracked;
+  std::optional<HandFault> fault{};  ///< why a hand that was passed is `untracked`
   Contacts contacts{};  ///< of each part that the person presses in; none of the others
   std::array<double, kDigitCount> ray_turn_rad{};  ///< of method paper: the fingers' turned rays
 };
@@ -75,14 +76,15 @@ class HandCorrector {
 
   /// The hand to draw for a tracked hand at `time_ns` (any origin), valid until the next call and
   /// not to be given back as `tracked`. Never allocates or throws;
-  /// the pose is finite if the tracked one is. A pose that cannot be used comes back as it is,
-  /// status `untracked`. Where no object is near, give `nothing()`: a hand that is not passed is
-  /// missing, and jumps when an object comes. Frames in which it is missing are simply not passed:
-  /// one that presses on when it is back, within a second, goes on from where it was drawn. Time
-  /// that goes back, or the other hand, starts anew; but back by 25 ms at the most, as where a
-  /// clock is read late or a frame's display time foretold anew, counts as the same time. Once a
-  /// frame: a second call for the same time counts as a frame of a millisecond. Times may be whole
-  /// milliseconds, and off by a few.
+  /// the pose is finite if the tracked one is. Rotations from half to twice the unit length are
+  /// made unit first (`with_unit_rotations`). A pose that cannot be used even so comes back as it
+  /// is, status `untracked`, and `fault` says why. Where no object is near, give `nothing()`: a
+  /// hand that is not passed is missing, and jumps when an object comes. Frames in which it is
+  /// missing are simply not passed: one that presses on when it is back, within a second, goes on
+  /// from where it was drawn. Time that goes back, or the other hand, starts anew; but back by 25
+  /// ms at the most, as where a clock is read late or a frame's display time foretold anew, counts
+  /// as the same time. Once a frame: a second call for the same time counts as a frame of a
+  /// millisecond. Times may be whole milliseconds, and off by a few.
   const CorrectedHand& update(const HandPose& tracked, const Object& object,
                               std::int64_t time_ns) noexcept;
 
@@ -102,6 +104,7 @@ class HandCorrector {
     std::int64_t time_ns = 0;
   };
 
+  void correct(const HandPose& tracked, const Object& object, std::int64_t time_ns) noexcept;
   void start_frame(const HandPose& tracked, std::int64_t time_ns) noexcept;
   void follow_length(double length_m) noexcept;
   void correct_by_paper(const HandPose& tracked, const Object& object,

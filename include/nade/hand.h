@@ -127,10 +127,27 @@ struct HandPose {
   [[nodiscard]] Vec3 back() const { return (*this)[Joint::palm].rotation * Vec3::UnitY(); }
 };
 
-/// Whether joints are finite, rotations are unit, the wrist is within 1000 km of the origin and no
-/// joint half a metre or more from it: what the frame path needs in order to work on a pose. Radii
-/// may be anything.
+/// Why the frame path cannot work on a pose.
+enum class HandFault : std::uint8_t {
+  not_finite,         ///< a number of a joint is not finite
+  rotation_not_unit,  ///< a squared length of a rotation is not 1 to a thousandth
+  wrist_far,          ///< the wrist is 1000 km or more from the origin
+  joint_far,          ///< a joint is half a metre or more from the wrist
+  no_length,          ///< wrist and middle knuckle are less than a millimetre apart
+};
+/// What a fault is, to go into a sentence: "a joint is half a metre or more from the wrist".
+[[nodiscard]] std::string_view name_of(HandFault fault);
+
+/// The first fault of a pose, in the order of `HandFault`; none where the frame path can work on
+/// it. Radii may be anything.
+[[nodiscard]] std::optional<HandFault> fault_of(const HandPose& hand) noexcept;
+
+/// Whether there is no fault.
 [[nodiscard]] bool is_usable(const HandPose& hand) noexcept;
+
+/// The hand with rotations from half to twice the unit length made unit, as floats and rounded
+/// files need it. One that is unit as `fault_of` has it stays bit for bit, and so does any other.
+[[nodiscard]] HandPose with_unit_rotations(const HandPose& hand) noexcept;
 
 /// Wrist to middle-finger knuckle, metres: the measure of a hand's size.
 [[nodiscard]] double hand_length(const HandPose& hand) noexcept;

@@ -32,7 +32,10 @@ Error cannot_open(const std::string& path, int error_number) {
 class ByteSource::Unpacker {
  public:
   /// How a read ended.
-  enum class End { more, whole, cut_off, damaged, unreadable };
+  enum class End { more, whole, cut_off, damaged, bomb, unreadable };
+
+  /// Text of hands that move becomes ten times smaller, of one that lies still a hundred times.
+  static constexpr std::size_t kMostRatio = 200;
 
   explicit Unpacker(int descriptor) : descriptor_(descriptor), input_(kBufferBytes / 2) {}
   Unpacker(const Unpacker&) = delete;
@@ -72,6 +75,8 @@ class ByteSource::Unpacker {
       // What came out right before damage is likely damaged too.
       if (code != Z_OK && code != Z_STREAM_END) return End::damaged;
       count = room - stream_.avail_out;
+      unpacked_ += count;
+      if (unpacked_ > kMostUnpacked && unpacked_ / kMostRatio > packed_) return End::bomb;
       if (count > 0) return End::more;
     }
   }
@@ -93,6 +98,7 @@ class ByteSource::Unpacker {
           ::read(descriptor_, end, static_cast<std::size_t>(input_.data() + input_.size() - end));
     } while (count < 0 && errno == EINTR);
     if (count > 0) stream_.avail_in += static_cast<uInt>(count);
+    if (count > 0) packed_ += static_cast<std::size_t>(count);
     return count >= 0;
   }
   [[nodiscard]] bool tell_form() {
@@ -111,7 +117,10 @@ class ByteSource::Unpacker {
 
   static constexpr std::array<Bytef, 2> kMagic{0x1F, 0x8B};
   static constexpr int kGzipWindow = 15 + 16;  // zlib's: the largest window, with gzip around it
+  static constexpr std::size_t kMostUnpacked = std::size_t{64} << 20;  // before that is looked at
   int descriptor_;
+  std::size_t packed_ = 0;
+  std::size_t unpacked_ = 0;
   std::vector<Bytef> input_;
   z_stream stream_{};
   Form form_ = Form::unknown;
@@ -163,6 +172,12 @@ bool ByteSource::fill() {
     case Unpacker::End::damaged:
       failure_ = Error{ErrorCode::unreadable,
                        fmt::format("{}: expected whole gzip data, found them damaged", name_)};
+      return false;
+    case Unpacker::End::bomb:
+      failure_ = Error{ErrorCode::bad_format,
+                       fmt::format("{}: expected a recording, found gzip data that unpack to more "
+                                   "than {} times their size",
+                                   name_, Unpacker::kMostRatio)};
       return false;
     case Unpacker::End::unreadable:
       failure_ = cannot_open(name_, errno);

@@ -10,7 +10,9 @@ namespace nade::io {
 namespace {
 
 /// Deeper than any recording, shallow enough to recurse through.
-constexpr int kDeepest = 64;
+constexpr std::size_t kDeepest = 64;
+/// More than any frame or header has; parsed they take some hundred bytes each.
+constexpr std::size_t kMostValues = 1'000'000;
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
@@ -26,64 +28,95 @@ bool is_not_finite(const std::string& token) {
   return *end == '\0' && !std::isfinite(number);
 }
 
-/// The text with null for every number that is not finite; none where there is none.
-std::optional<std::string> with_nulls(std::string_view text) {
-  std::string result;
-  bool replaced = false;
+/// Calls `take` with where each number, literal or misspelt word begins, and its text.
+template <class Take>
+void for_each_scalar(std::string_view text, Take&& take) {
   bool in_string = false;
   for (std::size_t i = 0; i < text.size();) {
     const char c = text[i];
     if (in_string || c == '"' || !continues_scalar(c) || c == '[' || c == '{') {
-      if (in_string && c == '\\' && i + 1 < text.size()) result += text[i++];
+      if (in_string && c == '\\') ++i;
       if (c == '"') in_string = !in_string;
-      result += text[i++];
+      ++i;
       continue;
     }
-    std::size_t end = i;
-    while (end < text.size() && continues_scalar(text[end])) ++end;
-    const std::string token(text.substr(i, end - i));
-    const bool replace = is_not_finite(token);
-    replaced = replaced || replace;
-    result += replace ? "null" : token;
-    i = end;
+    const std::size_t begin = i;
+    while (i < text.size() && continues_scalar(text[i])) ++i;
+    take(begin, text.substr(begin, i - begin));
   }
-  if (!replaced) return std::nullopt;
+}
+
+/// The text with null for every number that is not finite; none where there is none.
+std::optional<std::string> with_nulls(std::string_view text) {
+  std::string result;
+  std::size_t copied = 0;
+  for_each_scalar(text, [&](std::size_t begin, std::string_view token) {
+    if (!is_not_finite(std::string(token))) return;
+    result += text.substr(copied, begin - copied);
+    result += "null";
+    copied = begin + token.size();
+  });
+  if (copied == 0) return std::nullopt;
+  result += text.substr(copied);
   return result;
-}
-
-bool is_deeper_than(const Json& value, int depth) {
-  if (!value.is_structured() || value.empty()) return false;
-  if (depth == 0) return true;
-  return std::any_of(value.begin(), value.end(),
-                     [&](const Json& element) { return is_deeper_than(element, depth - 1); });
-}
-
-Result<Json> checked(Json value) {
-  if (is_deeper_than(value, kDeepest)) {
-    return Error{ErrorCode::bad_format,
-                 fmt::format("expected values nested at most {} deep, found more", kDeepest)};
-  }
-  return value;
 }
 
 }  // namespace
 
+Status check_json_size(std::string_view text) {
+  std::size_t depth = 0;
+  std::size_t values = 1;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_string && c == '\\') {
+      ++i;
+    } else if (c == '"') {
+      in_string = !in_string;
+    } else if (in_string) {
+      continue;
+    } else if (c == '[' || c == '{') {
+      ++depth;
+      ++values;
+    } else if (c == ',') {
+      ++values;
+    } else if ((c == ']' || c == '}') && depth > 0) {
+      --depth;
+    }
+    if (depth > kDeepest) {
+      return Error{ErrorCode::bad_format,
+                   fmt::format("expected values nested at most {} deep, found more", kDeepest)};
+    }
+    if (values > kMostValues) {
+      return Error{ErrorCode::bad_format,
+                   fmt::format("expected at most {} values in one, found more", kMostValues)};
+    }
+  }
+  return ok_status();
+}
+
+std::optional<std::size_t> find_not_finite(std::string_view text) {
+  std::optional<std::size_t> found;
+  for_each_scalar(text, [&](std::size_t begin, std::string_view token) {
+    if (!found && is_not_finite(std::string(token))) found = begin;
+  });
+  return found;
+}
+
 Result<Json> parse_json(std::string_view text) {
+  const Status size = check_json_size(text);
+  if (!size) return size.error();
   try {
-    return checked(Json::parse(text));
-  } catch (const Json::parse_error& error) {
+    return Json::parse(text);
+  } catch (const Json::exception& error) {
     if (const std::optional<std::string> mended = with_nulls(text)) {
       Json value = Json::parse(*mended, nullptr, false);
-      if (!value.is_discarded()) return checked(std::move(value));
+      if (!value.is_discarded()) return value;
     }
+    const auto* const misread = dynamic_cast<const Json::parse_error*>(&error);
+    if (misread == nullptr) return Error{ErrorCode::bad_format, "expected valid JSON"};
     return Error{ErrorCode::bad_format, fmt::format("column {}: expected valid JSON",
-                                                    std::max(error.byte, std::size_t{1}))};
-  } catch (const Json::out_of_range&) {
-    if (const std::optional<std::string> mended = with_nulls(text)) {
-      Json value = Json::parse(*mended, nullptr, false);
-      if (!value.is_discarded()) return checked(std::move(value));
-    }
-    return Error{ErrorCode::bad_format, "expected valid JSON"};
+                                                    std::max(misread->byte, std::size_t{1}))};
   }
 }
 

@@ -17,6 +17,13 @@ using Json = nlohmann::json;
 /// prefixed with the file's name and the line ("column 41: expected valid JSON").
 [[nodiscard]] Result<Json> parse_json(std::string_view text);
 
+/// Refuses a text that is nested deeper than 64, or of more than a million values, before it is
+/// parsed. The error is without the file's name.
+[[nodiscard]] Status check_json_size(std::string_view text);
+
+/// Where the first number stands that is not finite as a double; none where there is none.
+[[nodiscard]] std::optional<std::size_t> find_not_finite(std::string_view text);
+
 /// What a value is, with its article, for "expected …, found …".
 [[nodiscard]] std::string kind_of(const Json& value);
 

@@ -12,6 +12,12 @@ namespace {
 constexpr double kMetresPerMillimetre = 1e-3;
 constexpr double kNanosecondsPerMicrosecond = 1e3;
 
+/// What programs call the points that MediaPipe finds.
+constexpr std::array kMediaPipeKeys{
+    "landmarks",      "worldLandmarks",       "world_landmarks",    "handLandmarks",
+    "hand_landmarks", "hand_world_landmarks", "multiHandLandmarks", "multi_hand_landmarks",
+    "handedness",     "handednesses",         "keypoints",          "keypoints3D"};
+
 std::optional<double> finite_number(const Json& object, const char* key) {
   const auto found = object.find(key);
   if (found == object.end() || !found->is_number()) return std::nullopt;
@@ -113,6 +119,20 @@ Result<std::optional<RecordedFrame>> LeapImport::next() {
 
 Result<RecordedFrame> LeapImport::read_frame(const Json& frame) {
   RecordedFrame result;
+  const auto hands = frame.find("hands");
+  if (hands == frame.end()) {
+    const auto key = std::find_if(kMediaPipeKeys.begin(), kMediaPipeKeys.end(),
+                                  [&](const char* name) { return frame.contains(name); });
+    const std::string found = key == kMediaPipeKeys.end()
+                                  ? "none"
+                                  : fmt::format(
+                                        "\"{}\", as in results of MediaPipe, which have no "
+                                        "rotations and are not read",
+                                        *key);
+    return Error{
+        ErrorCode::bad_format,
+        fmt::format("{}: expected the \"hands\" of a raw LeapJS frame, found {}", place(), found)};
+  }
   const std::optional<double> time_us = finite_number(frame, "timestamp");
   if (!time_us ||
       !(std::abs(*time_us) * kNanosecondsPerMicrosecond < static_cast<double>(kLatest_ns))) {
@@ -121,8 +141,6 @@ Result<RecordedFrame> LeapImport::read_frame(const Json& frame) {
                              frame.contains("timestamp") ? frame["timestamp"].dump() : "none")};
   }
   result.time_ns = std::llround(*time_us * kNanosecondsPerMicrosecond);
-  const auto hands = frame.find("hands");
-  if (hands == frame.end()) return result;
   if (!hands->is_array()) {
     return Error{ErrorCode::bad_value,
                  fmt::format("{}: hands: expected an array, found {}", place(), kind_of(*hands))};
@@ -156,18 +174,16 @@ Status LeapImport::read_hand(const Json& frame, std::size_t hand_index, Recorded
     return ok_status();
   }
   RecordedHand recorded;
-  if (palm && normal && direction) {
-    const double confidence = finite_number(hand, "confidence").value_or(1.0);
-    recorded.pose = hand_from_leap(
-        {*side, *palm, *normal, *direction, std::clamp(confidence, 0.0, 1.0), *fingers});
-  }
-  if (!palm || !normal || !direction || !is_usable(recorded.pose)) {
+  if (!palm || !normal || !direction) {
     leave_out(Oddity::unusable_hand,
-              fmt::format("{}: the palm or a joint is not finite or half a metre from the wrist; "
-                          "the hand is left out of the frame",
+              fmt::format("{}: the palm is not finite; the hand is left out of the frame",
                           name_of(*side)));
     return ok_status();
   }
+  const double confidence = finite_number(hand, "confidence").value_or(1.0);
+  recorded.pose = hand_from_leap(
+      {*side, *palm, *normal, *direction, std::clamp(confidence, 0.0, 1.0), *fingers});
+  if (!intake_.admit(recorded.pose, place(), warnings_)) return ok_status();
   std::optional<RecordedHand>& place_in_frame = result.hands[index_of(*side)];
   if (place_in_frame) {
     leave_out(Oddity::hand_twice,

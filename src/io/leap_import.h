@@ -5,6 +5,7 @@
 
 #include "byte_source.h"
 #include "frame_array.h"
+#include "hand_intake.h"
 #include "json_text.h"
 #include "leap_hand.h"
 #include "nade/io/recording.h"
@@ -21,6 +22,8 @@ class LeapImport {
   [[nodiscard]] const RecordingHeader& header() const { return header_; }
   [[nodiscard]] Result<std::optional<RecordedFrame>> next();
   [[nodiscard]] const Warnings& warnings() const { return warnings_; }
+  [[nodiscard]] HandIntake& intake() { return intake_; }
+  [[nodiscard]] const std::string& name() const { return frames_.name(); }
 
  private:
   explicit LeapImport(ByteSource source);
@@ -33,6 +36,7 @@ class LeapImport {
   FrameArray frames_;
   RecordingHeader header_;
   Warnings warnings_;
+  HandIntake intake_{1e-6};
   std::optional<std::int64_t> last_time_ns_;
 };
 

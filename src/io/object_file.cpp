@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -182,6 +183,17 @@ std::optional<std::vector<double>> numbers(const nlohmann::json& array, std::siz
   return values;
 }
 
+/// The object of a header: beside the recording where it is there, else where the header, as it
+/// was written before, has it.
+std::string found_object(const std::string& spec, const std::string& recording) {
+  const std::string beside =
+      (std::filesystem::path(recording).parent_path() / object_name(spec)).string();
+  const std::string file = beside.substr(0, beside.find(kAlive));
+  std::error_code ignored;
+  if (!has_mesh_ending(file) || !std::filesystem::is_regular_file(file, ignored)) return spec;
+  return beside;
+}
+
 Error bad_key(const std::string& name, std::string_view key, std::string_view expected) {
   return {ErrorCode::bad_value, fmt::format("{}: header: {}: expected {}", name, key, expected)};
 }
@@ -250,12 +262,19 @@ Result<LoadedObject> load_object(const std::string& spec) {
   return make_mesh(spec, {spec, std::nullopt});
 }
 
+std::string object_name(const std::string& spec) {
+  const std::size_t end = std::min(spec.find(kAlive), spec.size());
+  const std::string file = spec.substr(0, end);
+  if (!has_mesh_ending(file)) return spec;
+  return std::filesystem::path(file).filename().string() + spec.substr(end);
+}
+
 std::string with_placing(const std::string& json_object, const ObjectPlacing& placing) {
   auto header = json_object.empty() ? nlohmann::ordered_json::object()
                                     : nlohmann::ordered_json::parse(json_object, nullptr, false);
   NADE_ASSERT(header.is_object());
   const Pose& pose = placing.placement.pose;
-  header["object"] = placing.object;
+  header["object"] = object_name(placing.object);
   header["at"] = {pose.position.x(), pose.position.y(), pose.position.z()};
   header["turn"] = {pose.rotation.x(), pose.rotation.y(), pose.rotation.z(), pose.rotation.w()};
   header["scale"] = placing.placement.scale;
@@ -280,18 +299,19 @@ double softness_from(const std::string& json_object) {
 }
 
 Result<std::optional<ObjectPlacing>> placing_from(const std::string& json_object,
-                                                  const std::string& name) {
+                                                  const std::string& recording) {
   if (json_object.empty()) return std::optional<ObjectPlacing>();
   const auto header = nlohmann::json::parse(json_object, nullptr, false);
   if (!header.is_object() || !header.contains("object")) return std::optional<ObjectPlacing>();
-  if (!header["object"].is_string()) return bad_key(name, "object", "a text");
-  const Result<Placement> placement = placement_from(header, name);
+  if (!header["object"].is_string()) return bad_key(recording, "object", "a text");
+  const Result<Placement> placement = placement_from(header, recording);
   if (!placement) return placement.error();
-  ObjectPlacing placing{header["object"].get<std::string>(), *placement, {}};
+  ObjectPlacing placing{
+      found_object(header["object"].get<std::string>(), recording), *placement, {}};
   if (header.contains("animation_start")) {
     const auto& start = header["animation_start"];
     if (!start.is_number_integer()) {
-      return bad_key(name, "animation_start", "a whole number of nanoseconds");
+      return bad_key(recording, "animation_start", "a whole number of nanoseconds");
     }
     placing.animation_start_ns = start.get<std::int64_t>();
   }

@@ -63,6 +63,14 @@ std::filesystem::path folder_of(const std::string& target) {
   return folder.empty() ? "." : folder;
 }
 
+/// So that a new name outlives the machine's stopping. Not every file system can do it.
+void sync_folder(const std::filesystem::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  static_cast<void>(::fsync(descriptor));
+  ::close(descriptor);
+}
+
 /// Calls `make` with names beside `target` until it has made something under one of them; that
 /// name, or empty with errno set. They do not hold the target's own, which may be as long as a
 /// name can be.
@@ -219,16 +227,21 @@ Status OutputFile::flush() {
 
 Status OutputFile::finish() {
   NADE_ASSERT(impl_ != nullptr && impl_->stream != nullptr);
+  OpenedFile& file = impl_->file;
+  const bool to_be_renamed = !file.temporary.empty() || file.nameless >= 0;
+  const int kept = to_be_renamed ? ::fcntl(file.descriptor, F_DUPFD_CLOEXEC, 0) : -1;
   errno = 0;
-  const int closed = ::gzclose_w(impl_->stream);
-  const int error_number = errno != 0 ? errno : EIO;
+  bool written = ::gzclose_w(impl_->stream) == Z_OK;
   impl_->stream = nullptr;
-  if (closed != Z_OK) {
+  // What has its name has its content too, even where the machine stops.
+  if (to_be_renamed) written = written && ::fsync(kept) == 0;
+  const int error_number = errno != 0 ? errno : EIO;
+  if (kept >= 0) ::close(kept);
+  if (!written) {
     impl_->remove_temporary();
     return unwritable(impl_->path, error_number);
   }
-  OpenedFile& file = impl_->file;
-  if (file.temporary.empty() && file.nameless < 0) return ok_status();
+  if (!to_be_renamed) return ok_status();
   if (!impl_->name_temporary() || std::rename(file.temporary.c_str(), file.target.c_str()) != 0) {
     const int rename_error = errno;
     impl_->remove_temporary();
@@ -236,6 +249,7 @@ Status OutputFile::finish() {
   }
   file.temporary.clear();
   impl_->remove_temporary();
+  sync_folder(folder_of(file.target));
   return ok_status();
 }
 

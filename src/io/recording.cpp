@@ -100,12 +100,25 @@ const RecordingHeader& RecordingReader::header() const {
 }
 
 Result<std::optional<RecordedFrame>> RecordingReader::next() {
-  return std::visit([](auto& source) { return source.next(); }, impl_->source);
+  return std::visit(
+      [](auto& source) {
+        Result<std::optional<RecordedFrame>> frame = source.next();
+        if (frame && *frame) source.intake().add_time((*frame)->time_ns);
+        return frame;
+      },
+      impl_->source);
 }
 
 std::vector<std::string> RecordingReader::warnings() const {
-  return std::visit([](const auto& source) { return source.warnings().sentences(); },
-                    impl_->source);
+  return std::visit(
+      [](auto& source) {
+        std::vector<std::string> sentences = source.warnings().sentences();
+        for (std::string& doubt : source.intake().doubts(source.name())) {
+          sentences.push_back(std::move(doubt));
+        }
+        return sentences;
+      },
+      impl_->source);
 }
 
 struct RecordingWriter::Impl {

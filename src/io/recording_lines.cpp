@@ -11,7 +11,8 @@ namespace nade::io {
 namespace {
 
 constexpr std::size_t kJointNumbers = 8;
-constexpr double kUnitTolerance = 1e-3;  // of the squared norm, as is_usable has it
+constexpr std::size_t kWebxrJoints = kJointCount - 1;  // all but the palm
+constexpr double kUnitTolerance = 1e-3;                // of the squared norm, as fault_of has it
 constexpr double kShortestRotation = 0.5;
 constexpr double kLongestRotation = 2.0;
 
@@ -124,17 +125,6 @@ std::optional<HandStatus> status_from(const Json& value) {
   return static_cast<HandStatus>(found - kStatusNames.begin());
 }
 
-/// What could be made of a rotation that was given.
-enum class Rotation { unit, mended, hopeless };
-Rotation make_unit(Quat& rotation) {
-  const double squared = rotation.squaredNorm();
-  if (std::abs(squared - 1.0) <= kUnitTolerance) return Rotation::unit;
-  const double norm = std::sqrt(squared);
-  if (norm < kShortestRotation || norm > kLongestRotation) return Rotation::hopeless;
-  rotation.coeffs() /= norm;
-  return Rotation::mended;
-}
-
 std::optional<Pose> head_of(const Json& value) {
   if (!value.is_array() || value.size() != 7) return std::nullopt;
   std::array<double, 7> n{};
@@ -143,9 +133,11 @@ std::optional<Pose> head_of(const Json& value) {
     n[i] = value[i].get<double>();
   }
   Pose head{{n[0], n[1], n[2]}, Quat(n[6], n[3], n[4], n[5])};
-  if (!head.position.allFinite() || make_unit(head.rotation) == Rotation::hopeless) {
+  const double length = head.rotation.norm();
+  if (!head.position.allFinite() || !(length >= kShortestRotation && length <= kLongestRotation)) {
     return std::nullopt;
   }
+  if (std::abs(length * length - 1.0) > kUnitTolerance) head.rotation.coeffs() /= length;
   return head;
 }
 
@@ -279,41 +271,51 @@ Result<RecordedFrame> RecordingLines::read_frame(Json object) {
   return frame;
 }
 
+Error RecordingLines::wrong_count(Handedness side, const std::string& found) const {
+  return bad_value(
+      fmt::format("{}: joints: expected {} joints, found {}", name_of(side), kJointCount, found));
+}
+
+/// A joint with a number that is not finite is not finite as a whole.
+Status RecordingLines::read_joints(const Json& joints, HandPose& pose) {
+  const std::size_t first = kJointCount - joints.size();
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const Result<JointNumbers> numbers = joint_numbers(joints[i]);
+    if (!numbers) {
+      return bad_value(
+          fmt::format("{}: joint {}: {}", name_of(pose.side), i, numbers.error().message));
+    }
+    const auto& n = numbers->at;
+    Pose& joint = pose.joints[first + i];
+    joint.position = {n[0], n[1], n[2]};
+    joint.rotation = Quat(n[6], n[3], n[4], n[5]);
+    pose.radius[first + i] = n[7];
+    if (!numbers->finite) joint.position.setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+  if (first == 0) return ok_status();
+  pose[Joint::palm] = palm_from_middle_metacarpal(pose);
+  // Another joint than the palm may be the one that is missing.
+  if (check_hand(pose).has(HandDoubt::length)) return wrong_count(pose.side, "25");
+  warnings_.add(Oddity::palm_missing,
+                fmt::format("{}: {}: {} joints, taken for those of WebXR: the palm is put in the "
+                            "middle of the middle metacarpal",
+                            place(), name_of(pose.side), joints.size()));
+  return ok_status();
+}
+
 Result<std::optional<RecordedHand>> RecordingLines::read_hand(Json object, Handedness side) {
   const std::string_view hand_name = name_of(side);
   RecordedHand hand;
   hand.pose.side = side;
   const Json joints = take(object, "joints").value_or(Json());
-  if (!joints.is_array() || joints.size() != kJointCount) {
-    return bad_value(fmt::format("{}: joints: expected {} joints, found {}", hand_name, kJointCount,
-                                 joints.is_array()  ? std::to_string(joints.size())
-                                 : joints.is_null() ? "none"
-                                                    : kind_of(joints)));
+  if (!joints.is_array()) {
+    return wrong_count(hand.pose.side, joints.is_null() ? "none" : kind_of(joints));
   }
-  bool usable = true;
-  for (std::size_t i = 0; i < kJointCount; ++i) {
-    const Result<JointNumbers> numbers = joint_numbers(joints[i]);
-    if (!numbers) {
-      return bad_value(fmt::format("{}: joint {}: {}", hand_name, i, numbers.error().message));
-    }
-    const auto& n = numbers->at;
-    Pose& joint = hand.pose.joints[i];
-    joint.position = {n[0], n[1], n[2]};
-    joint.rotation = Quat(n[6], n[3], n[4], n[5]);
-    hand.pose.radius[i] = n[7];
-    if (!numbers->finite) {
-      usable = false;
-      continue;
-    }
-    const Rotation rotation = make_unit(joint.rotation);
-    if (rotation == Rotation::hopeless) usable = false;
-    if (rotation == Rotation::mended) {
-      warnings_.add(Oddity::rotation_not_unit,
-                    fmt::format("{}: {}: joint {}: the quaternion is not of unit length; it is "
-                                "made so",
-                                place(), hand_name, i));
-    }
+  if (joints.size() != kJointCount && joints.size() != kWebxrJoints) {
+    return wrong_count(hand.pose.side, std::to_string(joints.size()));
   }
+  const Status read = read_joints(joints, hand.pose);
+  if (!read) return read.error();
   if (const std::optional<Json> confidence = take(object, "confidence")) {
     const double value = confidence->is_number() ? confidence->get<double>() : -1.0;
     if (!(value >= 0.0 && value <= 1.0)) {
@@ -341,13 +343,7 @@ Result<std::optional<RecordedHand>> RecordingLines::read_hand(Json object, Hande
     hand.contact = *contacts;
     if (contact->empty()) object.erase(contact);
   }
-  if (!usable || !is_usable(hand.pose)) {
-    warnings_.add(Oddity::unusable_hand,
-                  fmt::format("{}: {}: a joint is not finite, not turned by a rotation or half a "
-                              "metre from the wrist; the hand is left out of the frame",
-                              place(), hand_name));
-    return std::optional<RecordedHand>();
-  }
+  if (!intake_.admit(hand.pose, place(), warnings_)) return std::optional<RecordedHand>();
   hand.unknown_json = unknown_text(object);
   return std::optional<RecordedHand>(std::move(hand));
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "byte_source.h"
+#include "hand_intake.h"
 #include "json_text.h"
 #include "nade/io/recording.h"
 #include "warnings.h"
@@ -20,6 +21,8 @@ class RecordingLines {
   [[nodiscard]] const RecordingHeader& header() const { return header_; }
   [[nodiscard]] Result<std::optional<RecordedFrame>> next();
   [[nodiscard]] const Warnings& warnings() const { return warnings_; }
+  [[nodiscard]] HandIntake& intake() { return intake_; }
+  [[nodiscard]] const std::string& name() const { return source_.name(); }
 
  private:
   explicit RecordingLines(ByteSource source) : source_(std::move(source)) {}
@@ -28,6 +31,8 @@ class RecordingLines {
   Result<std::optional<Json>> next_json();
   Status read_header();
   Result<RecordedFrame> read_frame(Json object);
+  [[nodiscard]] Error wrong_count(Handedness side, const std::string& found) const;
+  Status read_joints(const Json& joints, HandPose& pose);
   Result<std::optional<RecordedHand>> read_hand(Json object, Handedness side);
   [[nodiscard]] std::string place() const;
   [[nodiscard]] Error bad_value(const std::string& sentence) const;
@@ -35,6 +40,7 @@ class RecordingLines {
   ByteSource source_;
   RecordingHeader header_;
   Warnings warnings_;
+  HandIntake intake_{1e-9};
   std::size_t line_ = 0;
   std::optional<std::int64_t> last_time_ns_;
 };

@@ -14,6 +14,7 @@ enum class Oddity {
   time_not_advancing,
   hand_twice,
   finger_missing,
+  palm_missing,
 };
 
 /// Counts oddities and keeps the first of each kind.

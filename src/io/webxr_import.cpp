@@ -59,7 +59,7 @@ bool read_joints(const Json& numbers, const std::array<Joint, N>& sequence, cons
     pose.radius[index_of(sequence[i])] = std::max(radius.get<double>(), 0.0);
   }
   pose[Joint::palm] = palm_from_middle_metacarpal(pose);
-  return is_usable(pose);
+  return true;
 }
 
 }  // namespace
@@ -203,11 +203,12 @@ Status WebxrImport::read_input(const Json& input, std::size_t element, RecordedF
   const std::optional<Pose> target_ray = pose_at(input, 1);
   if (!target_ray || !read_joints(input[part], *schema->second.joints, *target_ray, hand.pose)) {
     warnings_.add(Oddity::unusable_hand,
-                  fmt::format("{}: {}: a joint is not finite, not turned by a rotation or half a "
-                              "metre from the wrist; the hand is left out of the frame",
+                  fmt::format("{}: {}: a joint is not finite or not turned by a rotation; the hand "
+                              "is left out of the frame",
                               place(), name_of(side)));
     return ok_status();
   }
+  if (!intake_.admit(hand.pose, place(), warnings_)) return ok_status();
   std::optional<RecordedHand>& place_in_frame = result.hands[index_of(side)];
   if (place_in_frame) {
     warnings_.add(Oddity::hand_twice,

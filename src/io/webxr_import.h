@@ -7,6 +7,7 @@
 
 #include "byte_source.h"
 #include "frame_array.h"
+#include "hand_intake.h"
 #include "json_text.h"
 #include "nade/io/recording.h"
 #include "warnings.h"
@@ -21,6 +22,8 @@ class WebxrImport {
   [[nodiscard]] const RecordingHeader& header() const { return header_; }
   [[nodiscard]] Result<std::optional<RecordedFrame>> next();
   [[nodiscard]] const Warnings& warnings() const { return warnings_; }
+  [[nodiscard]] HandIntake& intake() { return intake_; }
+  [[nodiscard]] const std::string& name() const { return frames_.name(); }
 
  private:
   static constexpr std::size_t kWebxrJoints = kJointCount - 1;
@@ -46,6 +49,7 @@ class WebxrImport {
   std::map<std::int64_t, InputSchema> inputs_;
   bool has_schema_ = false;
   Warnings warnings_;
+  HandIntake intake_{1e-3};
   std::optional<std::int64_t> last_time_ns_;
 };
 

@@ -8,7 +8,6 @@
 
 #include <array>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <utility>
@@ -101,19 +100,6 @@ Status make_folder(const std::string& path) {
   if (code) return unwritable(path, code.value());
   const std::string parent = std::filesystem::path(path).parent_path().string();
   return sync_folder(parent.empty() ? "." : parent);
-}
-
-Status write_synced(const std::string& path, std::string_view text) {
-  const std::string beside = path + ".part";
-  const int descriptor =
-      ::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kNewFileMode);
-  if (descriptor < 0) return unwritable(path, errno);
-  const bool written = write_all(descriptor, text) && ::fsync(descriptor) == 0;
-  const int error_number = errno;
-  ::close(descriptor);
-  if (!written) return unwritable(path, error_number);
-  if (std::rename(beside.c_str(), path.c_str()) != 0) return unwritable(path, errno);
-  return sync_folder(std::filesystem::path(path).parent_path().string());
 }
 
 }  // namespace nade::study

@@ -39,7 +39,5 @@ class AppendFile {
 [[nodiscard]] Status sync_file(const std::string& path);
 /// Puts a folder's list of files on disk.
 [[nodiscard]] Status sync_folder(const std::string& path);
-/// Writes a file that appears whole, on disk.
-[[nodiscard]] Status write_synced(const std::string& path, std::string_view text);
 
 }  // namespace nade::study

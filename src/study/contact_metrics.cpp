@@ -30,7 +30,17 @@ Result<LoadedObject*> object_of(const std::string& spec, Objects& objects) {
   return &objects.emplace(spec, std::move(loaded).value()).first->second;
 }
 
-Result<PairMetrics> measure(const RecordedTrial& trial, Objects& objects) {
+/// Where the plan has the file of an object that a header names; else as the header has it.
+std::string spec_of(const std::string& object, const std::optional<Plan>& plan) {
+  if (!plan) return object;
+  for (const StudyObject& planned : plan->objects) {
+    if (object_name(planned.spec) == object_name(object)) return planned.spec;
+  }
+  return object;
+}
+
+Result<PairMetrics> measure(const RecordedTrial& trial, const std::optional<Plan>& plan,
+                            Objects& objects) {
   Result<RecordingPair> pair =
       RecordingPair::open(trial.tracked_path, trial.tracked_path, trial.corrected_path);
   if (!pair) return pair.error();
@@ -41,7 +51,7 @@ Result<PairMetrics> measure(const RecordedTrial& trial, Objects& objects) {
                  fmt::format("{}: expected a header that names the object, found none",
                              trial.corrected_path)};
   }
-  const Result<LoadedObject*> found = object_of((*placing)->object, objects);
+  const Result<LoadedObject*> found = object_of(spec_of((*placing)->object, plan), objects);
   if (!found) return found.error();
   LoadedObject& object = **found;
   std::optional<std::int64_t> start_ns = (*placing)->animation_start_ns;
@@ -59,7 +69,7 @@ ContactMetrics measure_trials(const StudyData& data, const std::function<void()>
   Objects objects;
   for (const RecordedTrial& trial : data.recordings) {
     if (before_trial) before_trial();
-    Result<PairMetrics> measured = measure(trial, objects);
+    Result<PairMetrics> measured = measure(trial, data.plan, objects);
     if (!measured) {
       contact.warnings.push_back(measured.error().message + ", not measured");
       continue;

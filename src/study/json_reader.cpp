@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "../io/json_text.h"
 #include "nade/study/plan.h"
 
 namespace nade::study {
@@ -112,16 +113,23 @@ std::uint64_t JsonReader::whole(std::uint64_t low, std::uint64_t high) const {
 }
 
 Result<Json> parse_json(std::string_view text, const std::string& name) {
+  const Status size = io::check_json_size(text);
+  if (!size) {
+    return Error{size.error().code, fmt::format("{}: {}", name, size.error().message)};
+  }
+  const auto error_at = [&](std::size_t byte, std::string_view expected) {
+    const std::string_view before = text.substr(0, std::min(byte, text.size()));
+    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+    return Error{ErrorCode::bad_format,
+                 fmt::format("{}: line {}: expected {}", name, line, expected)};
+  };
   try {
     return Json::parse(text);
   } catch (const Json::parse_error& error) {
-    const std::string_view before = text.substr(0, std::min(error.byte, text.size()));
-    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
-    return Error{ErrorCode::bad_format,
-                 fmt::format("{}: line {}: expected valid JSON", name, line)};
+    return error_at(error.byte, "valid JSON");
   } catch (const Json::out_of_range&) {
-    return Error{ErrorCode::bad_value,
-                 fmt::format("{}: expected numbers up to 1.8e308, found a larger one", name)};
+    return error_at(io::find_not_finite(text).value_or(0),
+                    "numbers that a double can hold, found a larger one");
   }
 }
 

@@ -11,6 +11,7 @@
 
 #include "append_file.h"
 #include "json_reader.h"
+#include "nade/io/output_file.h"
 
 namespace nade::study {
 namespace {
@@ -171,7 +172,7 @@ Status StudyStore::Impl::open_files() {
   return ok_status();
 }
 
-Status StudyStore::Impl::begin() { return write_synced(path(kPlanFile), participant_text(head)); }
+Status StudyStore::Impl::begin() { return write_whole(path(kPlanFile), participant_text(head)); }
 
 Status StudyStore::Impl::go_on() {
   Result<Participant> found = read_participant(folder);

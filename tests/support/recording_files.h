@@ -9,23 +9,25 @@
 
 #include "nade/io/recording.h"
 #include "support/files.h"
+#include "support/sample_hand.h"
 #include "support/scratch_folder.h"
 
 namespace nade::test {
 
-/// A hand of random size and turn, but usable.
+/// A hand somewhere, bent somehow.
 inline RecordedHand random_hand(Handedness side, std::mt19937& random) {
   std::uniform_real_distribution<double> coordinate(-0.1, 0.1);
-  RecordedHand hand;
-  hand.pose.side = side;
-  for (std::size_t i = 0; i < kJointCount; ++i) {
-    Pose& joint = hand.pose.joints[i];
-    joint.position = {coordinate(random), 1.0 + coordinate(random), coordinate(random)};
-    joint.rotation =
-        Quat(coordinate(random), coordinate(random), coordinate(random), coordinate(random))
-            .normalized();
-    hand.pose.radius[i] = 0.01 + 0.05 * coordinate(random);
+  const auto vector = [&] {
+    return Vec3(coordinate(random), coordinate(random), coordinate(random));
+  };
+  HandAngles angles = relaxed_angles();
+  for (DigitAngles& digit : angles) {
+    for (HingeAngles& hinge : digit) hinge.flexion += coordinate(random);
   }
+  RecordedHand hand;
+  const Quat turn(Eigen::AngleAxisd(20.0 * coordinate(random), vector().normalized()));
+  hand.pose = placed_hand(sample_hand(side, angles), vector(), turn);
+  for (double& radius : hand.pose.radius) radius = 0.01 + 0.05 * coordinate(random);
   hand.pose.confidence = 0.5 + coordinate(random);
   return hand;
 }

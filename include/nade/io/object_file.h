@@ -49,6 +49,10 @@ struct LoadedObject {
 /// centroid first meets it.
 [[nodiscard]] Result<LoadedObject> load_object(const std::string& spec);
 
+/// What a header calls an object: a mesh file by its name without the folder, so that no one's
+/// folders travel with a recording. Anything else stays as it is.
+[[nodiscard]] std::string object_name(const std::string& spec);
+
 /// Which object stood where: what the header of a recording keeps of it.
 struct ObjectPlacing {
   std::string object;
@@ -57,15 +61,16 @@ struct ObjectPlacing {
   std::optional<std::int64_t> animation_start_ns{};
 };
 
-/// `json_object` with the keys "object", "at", "turn", "scale" and, where there is one,
-/// "animation_start" set; an empty text counts as {}. Its text has to be a JSON object.
+/// `json_object` with the keys "object" (its `object_name`), "at", "turn", "scale" and, where there
+/// is one, "animation_start" set; an empty text counts as {}. Its text has to be a JSON object.
 [[nodiscard]] std::string with_placing(const std::string& json_object,
                                        const ObjectPlacing& placing);
 
 /// The placing in a header's `unknown_json`; no value where it names no object. Absent "at",
-/// "turn", "scale" and "animation_start" mean none. `name` is what the error calls the recording.
+/// "turn", "scale" and "animation_start" mean none. `recording` is its path: a mesh file is the one
+/// beside it, where there is one. The error begins with it.
 [[nodiscard]] Result<std::optional<ObjectPlacing>> placing_from(const std::string& json_object,
-                                                                const std::string& name);
+                                                                const std::string& recording);
 
 /// `json_object` with the keys "softness" and "friction" set, each where it is above 0. Its text
 /// has to be a JSON object.

@@ -33,7 +33,8 @@ class OutputFile {
   [[nodiscard]] Status write(std::string_view bytes);
   /// Hands what was written so far to the system, with which it outlives the program.
   [[nodiscard]] Status flush();
-  /// Nothing may be written after it, whether it succeeded or not.
+  /// The file is on the disk before it has its name. Nothing may be written after it, whether it
+  /// succeeded or not.
   [[nodiscard]] Status finish();
 
  private:
