@@ -271,8 +271,8 @@ TEST(Metrics, PopOfAStillHand) {
     return Pair{hand, shifted(hand, kOnto + Vec3(jump, 0.0, 0.0))};
   });
   EXPECT_NEAR(*metrics.pop_max_mm, 5.0, 1e-9);
-  // The tracked hand never moved by 0.2 mm.
-  EXPECT_FALSE(metrics.amplification_max);
+  // A tracked hand that stands still counts as if it moved by 0.2 mm.
+  EXPECT_NEAR(*metrics.amplification_max, 25.0, 1e-9);
 }
 
 TEST(Metrics, PopBeyondThreeTimesTheTrackedMotion) {
@@ -434,6 +434,108 @@ TEST(Metrics, SkinIsMeasuredAsByBruteForce) {
     if (metrics.pressing_frames == 0) continue;
     EXPECT_NEAR(*metrics.penetration_max_mm, -1e3 * deepest, 1e-9) << round;
     EXPECT_EQ(metrics.contact_ratio, nearest <= 0.002 ? 1.0 : 0.0) << round;
+  }
+}
+
+/// The hand 30 mm deep, and as drawn.
+Metrics measure_look(const std::function<HandPose(const HandPose& tracked)>& draw) {
+  return measure(90, [&](double seconds) {
+    const HandPose hand = shifted(at_height(kDeep), wander(seconds));
+    return Pair{hand, draw(hand)};
+  });
+}
+
+TEST(Metrics, SunkSkinPrintsAndLiftedSkinHovers) {
+  NADE_TEST_GENERIC_HAND(mesh, Handedness::right);
+  // Palm down, its joint at the origin.
+  const HandPose flat = moved(mesh.bind, mesh.bind[Joint::palm].inverse());
+  const auto look = [&](double height_m) {
+    MetricsMeter meter(mesh);
+    const Placement table{{0.01 * Vec3::UnitY(), Quat::Identity()}, 1.0};
+    for (int i = 0; i < 3; ++i) {
+      meter.add(i * 11'111'111LL, flat, shifted(flat, {0.0, height_m, 0.0}), Object(kPlane, table));
+    }
+    return meter.finish();
+  };
+  const Metrics sunk = look(0.0);
+  EXPECT_EQ(sunk.print_share, 1.0);
+  EXPECT_EQ(sunk.hover_mm, 0.0);
+  EXPECT_EQ(sunk.heel_share, 1.0);
+  EXPECT_GT(*sunk.excess_max_mm, 10.0);
+  const Metrics high = look(0.1);
+  EXPECT_EQ(high.print_share, 0.0);
+  EXPECT_EQ(high.heel_share, 0.0);
+  EXPECT_EQ(high.excess_max_mm, 0.0);
+  EXPECT_NEAR(*look(0.101).hover_mm - *high.hover_mm, 1.0, 1e-4);
+}
+
+TEST(Metrics, DrawnAsideAndTurned) {
+  const Metrics metrics = measure_look([](const HandPose& hand) {
+    const Quat turn(Eigen::AngleAxisd(20.0 * kDegree, Vec3::UnitY()));
+    const Vec3& palm = hand[Joint::palm].position;
+    return moved(hand, {palm - turn * palm + Vec3(0.01, 0.05, 0.0), turn});
+  });
+  EXPECT_NEAR(*metrics.along_p95_mm, 10.0, 1e-6);
+  EXPECT_NEAR(*metrics.turn_median_deg, 20.0, 1e-6);
+  EXPECT_NEAR(*metrics.turn_p95_deg, 20.0, 1e-6);
+}
+
+TEST(Metrics, AwayInFreeAirCountsAfterHalfASecond) {
+  const auto away_mm = [](double seconds_free) {
+    const int frames = static_cast<int>(std::lround(kRate * seconds_free));
+    return measure(frames,
+                   [](double) {
+                     const HandPose hand = at_height(0.2);
+                     return Pair{hand, shifted(hand, {0.03, 0.0, 0.0})};
+                   })
+        .free_max_mm;
+  };
+  EXPECT_FALSE(away_mm(0.45));
+  EXPECT_NEAR(*away_mm(0.6), 30.0, 1e-9);
+}
+
+TEST(Metrics, ThumbOpenedInThePalmsPlane) {
+  const Metrics metrics = measure_look([](HandPose hand) {
+    // 45 degrees forward and aside, however far down.
+    hand[Joint::thumb_proximal].position =
+        hand[Joint::thumb_metacarpal].position + Vec3(-0.02, -0.01, -0.02);
+    return hand;
+  });
+  EXPECT_NEAR(*metrics.thumb_open_max_deg, 45.0, 1e-6);
+}
+
+TEST(Metrics, FingersIntoEachOther) {
+  const auto overlap_mm = [](double apart_m) {
+    return *measure_look([&](HandPose hand) {
+              for (std::size_t i = 0; i < 5; ++i) {
+                hand.joints[index_of(Joint::index_metacarpal) + i].position.x() =
+                    hand[Joint::middle_metacarpal].position.x() - apart_m;
+              }
+              return hand;
+            }).overlap_p99_mm;
+  };
+  EXPECT_EQ(overlap_mm(0.03), 0.0);
+  EXPECT_NEAR(overlap_mm(0.004) - overlap_mm(0.006), 2.0, 1e-6);
+}
+
+TEST(Metrics, JoltsAreToldAtOneRate) {
+  const auto bob = [](double rate) {
+    const HandMesh mesh = toy_mesh(Handedness::right);
+    MetricsMeter meter(mesh);
+    for (int i = 0; i < 200; ++i) {
+      const double seconds = i / rate;
+      const HandPose hand = at_height(kDeep);
+      meter.add(std::llround(1e9 * seconds), hand,
+                shifted(hand, {0.0, 5.0 * seconds * seconds, 0.0}), Object(kPlane));
+    }
+    return meter.finish();
+  };
+  for (const double rate : {30.0, 90.0}) {
+    const Metrics metrics = bob(rate);
+    EXPECT_NEAR(*metrics.jolt_p999_mm, 1e3 * 10.0 / (90.0 * 90.0), 1e-4) << rate;
+    EXPECT_NEAR(*metrics.tremble_mm, 1e3 * 10.0 / (90.0 * 90.0), 1e-4) << rate;
+    EXPECT_EQ(metrics.own_jolt_p999_mm, 0.0);
+    EXPECT_EQ(metrics.own_tremble_mm, 0.0);
   }
 }
 

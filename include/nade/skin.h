@@ -8,27 +8,39 @@
 
 namespace nade {
 
-/// Where palmar skin is. The thumb's ball is of its metacarpal and proximal bone; knuckles, heel
-/// and hollow are of the other metacarpals. All that does not face the palm's side is back.
-enum class SkinRegion : std::uint8_t { tip, finger, thenar, knuckles, heel, hollow, back };
+/// Where on the hand a piece of skin is. All but `back` face the palmar side.
+enum class SkinRegion : std::uint8_t {
+  tip,       ///< the last phalanx of a digit
+  finger,    ///< the other phalanges of a finger
+  thenar,    ///< the thumb's metacarpal and proximal bone
+  knuckles,  ///< the palm beside the fingers' roots
+  heel,      ///< the palm beside the wrist and along the little finger's side
+  hollow,    ///< the rest of the palm
+  back,      ///< all other skin, and the forearm's stump
+};
 inline constexpr std::size_t kSkinRegionCount = 7;
 
-/// "tip", "finger", …
+/// "tip", "finger", "thenar", …
 [[nodiscard]] std::string_view name_of(SkinRegion region);
 
-/// What a hand mesh's skin is like, one element for each vertex.
+/// What the skin of a hand mesh is like, by vertex of the mesh.
 struct SkinMap {
   std::vector<SkinRegion> region;
-  /// How far flesh, and a palm that is drawn rigid and arched, give way there: metres, the mesh's
-  /// own size.
-  std::vector<double> flesh_m;
-  /// A third of each triangle around it: square metres, bind pose.
+  /// How far the skin may be pushed in: the flesh, and the giving of a palm that is drawn rigid.
+  /// Metres, alike for hands of any size.
+  std::vector<double> flesh_depth_m;
+  /// A third of each triangle at the vertex, square metres, the mesh's own size.
   std::vector<double> area_m2;
+
+  [[nodiscard]] bool is_palmar(std::size_t vertex) const {
+    return region[vertex] != SkinRegion::back;
+  }
 };
 
-/// Measures a hand mesh in its bind pose. The forearm's stump is back. Source of a fingertip's
-/// depth: several studies of fingertips pressed at 1 N (about 2 mm); the others stand for flesh and
-/// the palm's giving together.
+/// Measured on the mesh in its bind pose. Palmar is what faces the palmar axis (-Y) of the bone
+/// that weighs most on it within 60 degrees; on the thumb's metacarpal and proximal bone the middle
+/// metacarpal's axis counts as well. The flesh is deepest there and thins out to 0.5 mm where the
+/// skin faces sideways.
 [[nodiscard]] SkinMap measure_skin(const HandMesh& mesh);
 
 }  // namespace nade

@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "bend_meter.h"
-#include "digit_meter.h"
 #include "linkage_meter.h"
-#include "look_meter.h"
 #include "motion_meter.h"
 #include "nade/assert.h"
 #include "nade/eval/quantile.h"
+#include "pose_meter.h"
+#include "print_meter.h"
 #include "skin_probe.h"
 
 namespace nade {
@@ -38,12 +38,13 @@ struct MetricsMeter::Impl {
       : side(mesh.side),
         tracked_probe(mesh, options.hand_scale),
         corrected_probe(mesh, options.hand_scale),
-        look(mesh, options.hand_scale),
-        digits(mesh, options.hand_scale) {}
+        print(measure_skin(mesh)),
+        pose(mesh, options.hand_scale) {}
 
   [[nodiscard]] double take_skin(const SkinReading& corrected);
   [[nodiscard]] std::optional<double> take_gaps(const SkinReading& tracked,
                                                 const SkinReading& corrected, bool curling);
+  void take_print(const PoseFrame& frame, const Object& object);
   void take_linkage(const PastFrame& now, const Object& object);
   void break_off();
 
@@ -61,8 +62,8 @@ struct MetricsMeter::Impl {
   LinkageMeter linkage;
   MotionMeter motion;
   BendMeter bend;
-  LookMeter look;
-  DigitMeter digits;
+  PrintMeter print;
+  PoseMeter pose;
 };
 
 double MetricsMeter::Impl::take_skin(const SkinReading& corrected) {
@@ -87,6 +88,20 @@ std::optional<double> MetricsMeter::Impl::take_gaps(const SkinReading& tracked,
   return widest_mm;
 }
 
+void MetricsMeter::Impl::take_print(const PoseFrame& frame, const Object& object) {
+  PrintFrame read;
+  read.pressing = frame.pressing;
+  read.corrected_m = corrected_probe.read_below(*frame.corrected, object, 0.0);
+  if (frame.pressing) {
+    read.tracked_m = tracked_probe.read_below(*frame.tracked, object, -kPressing_m);
+    for (std::size_t i = 0; i < read.tracked_m.size(); ++i) {
+      const bool pressed = read.tracked_m[i] < -kPressing_m;
+      if (pressed && print.skin().is_palmar(i)) corrected_probe.complete(i, object);
+    }
+  }
+  print.add(read);
+}
+
 void MetricsMeter::Impl::take_linkage(const PastFrame& now, const Object& object) {
   const bool goes_on = past && past->palm_pressed && now.palm_pressed;
   const auto surface = object.closest_point(now.palm_tracked, kNotMeasured, palm_hint);
@@ -106,7 +121,7 @@ void MetricsMeter::Impl::break_off() {
   linkage.break_off();
   motion.break_off();
   bend.break_off();
-  look.break_off();
+  pose.break_off();
 }
 
 MetricsMeter::MetricsMeter(const HandMesh& mesh, const MetricsOptions& options)
@@ -131,14 +146,17 @@ FrameReading MetricsMeter::add(std::int64_t time_ns, const HandPose& tracked,
   ++meter.frames;
   FrameReading reading;
   const SkinReading tracked_skin = meter.tracked_probe.read(tracked, object);
-  const Pressing pressing = tracked_skin.lowest < -kPressing_m ? Pressing::yes : Pressing::no;
-  const auto pop_m = meter.motion.add(time_ns, tracked, corrected, pressing);
+  const bool pressing = tracked_skin.lowest < -kPressing_m;
+  const auto pop_m =
+      meter.motion.add({1e-9 * static_cast<double>(time_ns), &tracked, &corrected, pressing});
   if (pop_m) reading.pop_mm = 1e3 * *pop_m;
-  meter.look.add({time_ns, tracked, corrected, tracked_skin.lowest, pressing}, object);
-  meter.digits.add(tracked, corrected);
-  const BendMeter::FrameResult bend = meter.bend.add(tracked, corrected, pressing);
+  const PoseFrame pose{time_ns, &tracked, &corrected, tracked_skin.lowest, pressing};
+  meter.pose.add(pose, object);
+  meter.take_print(pose, object);
+  const BendMeter::FrameResult bend =
+      meter.bend.add(tracked, corrected, pressing ? Pressing::yes : Pressing::no);
   reading.bend_added_deg = bend.added_median_deg;
-  if (pressing == Pressing::yes) {
+  if (pressing) {
     const SkinReading corrected_skin = meter.corrected_probe.read(corrected, object);
     reading.penetration_mm = meter.take_skin(corrected_skin);
     reading.part_gap_mm = meter.take_gaps(tracked_skin, corrected_skin, bend.curling);
@@ -160,8 +178,8 @@ void MetricsMeter::merge(const MetricsMeter& other) {
   impl_->linkage.merge(from.linkage);
   impl_->motion.merge(from.motion);
   impl_->bend.merge(from.bend);
-  impl_->look.merge(from.look);
-  impl_->digits.merge(from.digits);
+  impl_->print.merge(from.print);
+  impl_->pose.merge(from.pose);
   impl_->break_off();
 }
 
@@ -189,29 +207,29 @@ Metrics MetricsMeter::finish() const {
   metrics.amplification_max = motion.amplification_max;
   metrics.pop_max_mm = motion.pop_max_mm;
   metrics.jitter_ratio = motion.jitter_ratio;
+  metrics.jolt_p999_mm = motion.jolt_p999_mm;
+  metrics.tremble_mm = motion.tremble_mm;
+  metrics.own_jolt_p999_mm = motion.own_jolt_p999_mm;
+  metrics.own_tremble_mm = motion.own_tremble_mm;
   const Bend bend = meter.bend.finish();
   metrics.curling_frames = bend.curling_frames;
   metrics.bend_added_median_deg = bend.added_median_deg;
   metrics.bend_added_p95_deg = bend.added_p95_deg;
   metrics.limit_violation_max_deg = bend.limit_violation_max_deg;
   metrics.curl_kept = bend.curl_kept;
-  metrics.jolt_p999_mm = motion.jolt_p999_mm;
-  metrics.tremble_mm = motion.tremble_mm;
-  metrics.own_jolt_p999_mm = motion.own_jolt_p999_mm;
-  metrics.own_tremble_mm = motion.own_tremble_mm;
-  const Look look = meter.look.finish();
-  metrics.print_share = look.print_share;
-  metrics.hover_mm = look.hover_mm;
-  metrics.heel_share = look.heel_share;
-  metrics.excess_max_mm = look.excess_max_mm;
-  metrics.excess_mean_mm = look.excess_mean_mm;
-  metrics.along_p95_mm = look.along_p95_mm;
-  metrics.free_max_mm = look.free_max_mm;
-  metrics.turn_median_deg = look.turn_median_deg;
-  metrics.turn_p95_deg = look.turn_p95_deg;
-  const DigitsApart digits = meter.digits.finish();
-  metrics.thumb_open_max_deg = digits.thumb_open_max_deg;
-  metrics.overlap_p99_mm = digits.overlap_p99_mm;
+  const Print print = meter.print.finish();
+  metrics.print_share = print.share;
+  metrics.hover_mm = print.hover_mm;
+  metrics.heel_share = print.heel_share;
+  metrics.excess_max_mm = print.excess_max_mm;
+  metrics.excess_mean_mm = print.excess_mean_mm;
+  const PoseDifference pose = meter.pose.finish();
+  metrics.along_p95_mm = pose.along_p95_mm;
+  metrics.free_max_mm = pose.free_max_mm;
+  metrics.turn_median_deg = pose.turn_median_deg;
+  metrics.turn_p95_deg = pose.turn_p95_deg;
+  metrics.thumb_open_max_deg = pose.thumb_open_max_deg;
+  metrics.overlap_p99_mm = pose.overlap_p99_mm;
   return metrics;
 }
 

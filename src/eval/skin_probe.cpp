@@ -61,6 +61,11 @@ SkinProbe::SkinProbe(const HandMesh& mesh, double scale) : mesh_(&mesh), scale_(
   NADE_ASSERT(mesh.normals.size() == mesh.vertices.size());
   make_clusters(find_patches(mesh));
   hints_.resize(vertices_.size());
+  slot_of_.resize(vertices_.size());
+  for (std::size_t slot = 0; slot < vertices_.size(); ++slot) {
+    slot_of_[vertices_[slot].index] = slot;
+  }
+  distances_m_.resize(vertices_.size());
   skin_.resize(mesh.vertices.size());
   middles_.reserve(clusters_.size());
 }
@@ -111,6 +116,29 @@ void SkinProbe::read_cluster(const MiddleReading& middle, const Object& object,
     }
     if (matters) static_cast<void>(measure(slot, object, reading));
   }
+}
+
+void SkinProbe::complete(std::size_t vertex, const Object& object) {
+  if (std::isfinite(distances_m_[vertex])) return;
+  SurfaceHint& hint = hints_[slot_of_[vertex]];
+  const auto nearest = object.closest_point(skin_[vertex].cast<double>(), kNotMeasured, hint);
+  if (nearest) distances_m_[vertex] = nearest->signed_distance;
+}
+
+std::span<const double> SkinProbe::read_below(const HandPose& hand, const Object& object,
+                                              double limit_m) {
+  pose_skin(*mesh_, hand, scale_, skin_, {});
+  std::fill(distances_m_.begin(), distances_m_.end(), kNotMeasured);
+  for (const Cluster& cluster : clusters_) {
+    const std::size_t middle = vertices_[cluster.first].index;
+    complete(middle, object);
+    const Vec3 center = position(cluster.first);
+    for (std::size_t slot = cluster.first + 1; slot < cluster.first + cluster.count; ++slot) {
+      const double least = distances_m_[middle] - (position(slot) - center).norm();
+      if (least < limit_m) complete(vertices_[slot].index, object);
+    }
+  }
+  return distances_m_;
 }
 
 SkinReading SkinProbe::read(const HandPose& hand, const Object& object) {

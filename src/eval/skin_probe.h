@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "nade/hand_mesh.h"
@@ -39,6 +40,14 @@ class SkinProbe {
 
   [[nodiscard]] SkinReading read(const HandPose& hand, const Object& object);
 
+  /// The signed distance of each vertex of the mesh, metres; infinite for skin that certainly lies
+  /// no lower than `limit_m`.
+  [[nodiscard]] std::span<const double> read_below(const HandPose& hand, const Object& object,
+                                                   double limit_m);
+  /// The same of one vertex of the hand that was read last, however far it is; in what `read_below`
+  /// gave, too.
+  void complete(std::size_t vertex, const Object& object);
+
  private:
   struct Vertex {
     std::uint32_t index;   ///< in the mesh
@@ -62,7 +71,9 @@ class SkinProbe {
   double scale_;
   std::vector<Vertex> vertices_;
   std::vector<Cluster> clusters_;
-  std::vector<SurfaceHint> hints_;  ///< for each of vertices_
+  std::vector<SurfaceHint> hints_;    ///< for each of vertices_
+  std::vector<std::size_t> slot_of_;  ///< by vertex of the mesh
+  std::vector<double> distances_m_;   ///< by vertex of the mesh
   std::vector<Eigen::Vector3f> skin_;
   std::vector<MiddleReading> middles_;
   SurfaceHint palm_hint_;

@@ -37,6 +37,8 @@ struct Metrics {
   std::optional<double> bend_added_p95_deg;
   std::optional<double> limit_violation_max_deg;
   std::optional<double> curl_kept;
+
+  // What the eye sees.
   std::optional<double> print_share;
   std::optional<double> hover_mm;
   std::optional<double> heel_share;

@@ -1,0 +1,78 @@
+#include "print_meter.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace nade {
+namespace {
+
+/// Skin this near the surface is part of the handprint.
+constexpr double kPrint_m = 0.0015;
+/// Less pressed skin than this leaves no print to judge.
+constexpr double kSmallest_m2 = 10e-4;
+constexpr double kHeelPressed = 0.5;
+
+/// Of the pressed skin.
+struct Areas {
+  double pressed_m2 = 0.0;
+  double touching_m2 = 0.0;
+
+  void add(double area_m2, double corrected_m) {
+    pressed_m2 += area_m2;
+    if (corrected_m < kPrint_m) touching_m2 += area_m2;
+  }
+};
+
+}  // namespace
+
+PrintMeter::PrintMeter(SkinMap skin) : skin_(std::move(skin)) {
+  for (std::size_t i = 0; i < skin_.region.size(); ++i) {
+    if (skin_.region[i] == SkinRegion::heel) heel_m2_ += skin_.area_m2[i];
+  }
+}
+
+void PrintMeter::add(const PrintFrame& frame) {
+  double excess_m = 0.0;
+  for (std::size_t i = 0; i < frame.corrected_m.size(); ++i) {
+    excess_m = std::max(excess_m, -frame.corrected_m[i] - skin_.flesh_depth_m[i]);
+  }
+  excess_max_mm_ = std::max(excess_max_mm_.value_or(0.0), 1e3 * excess_m);
+  if (!frame.pressing) return;
+  excess_mm_.add(1e3 * excess_m);
+  take_print(frame);
+}
+
+void PrintMeter::take_print(const PrintFrame& frame) {
+  Areas palmar;
+  Areas heel;
+  double height_m3 = 0.0;
+  for (std::size_t i = 0; i < frame.tracked_m.size(); ++i) {
+    if (!skin_.is_palmar(i) || frame.tracked_m[i] >= -kPressing_m) continue;
+    palmar.add(skin_.area_m2[i], frame.corrected_m[i]);
+    height_m3 += skin_.area_m2[i] * std::max(0.0, frame.corrected_m[i]);
+    if (skin_.region[i] == SkinRegion::heel) heel.add(skin_.area_m2[i], frame.corrected_m[i]);
+  }
+  if (palmar.pressed_m2 >= kSmallest_m2) {
+    share_.add(palmar.touching_m2 / palmar.pressed_m2);
+    hover_mm_.add(1e3 * height_m3 / palmar.pressed_m2);
+  }
+  if (heel.pressed_m2 > 0.0 && heel.pressed_m2 >= kHeelPressed * heel_m2_) {
+    heel_share_.add(heel.touching_m2 / heel.pressed_m2);
+  }
+}
+
+void PrintMeter::merge(const PrintMeter& other) {
+  share_.merge(other.share_);
+  hover_mm_.merge(other.hover_mm_);
+  heel_share_.merge(other.heel_share_);
+  excess_mm_.merge(other.excess_mm_);
+  if (other.excess_max_mm_) {
+    excess_max_mm_ = std::max(excess_max_mm_.value_or(0.0), *other.excess_max_mm_);
+  }
+}
+
+Print PrintMeter::finish() const {
+  return {share_.mean(), hover_mm_.mean(), heel_share_.mean(), excess_max_mm_, excess_mm_.mean()};
+}
+
+}  // namespace nade
