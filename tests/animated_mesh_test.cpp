@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -125,6 +126,44 @@ TEST(AnimatedMesh, SaysWhatCannotBePlayed) {
   ASSERT_FALSE(few.ok());
   EXPECT_NE(few.error().message.find("channel 0: expected 6 numbers for 2 keys, found 3"),
             std::string::npos);
+}
+
+TEST(AnimatedMesh, OneMomentStandsStillAndNamesTheOthers) {
+  GltfFile file("nade_moment");
+  file.animate(0, "translation", "LINEAR", {0}, {0, 2, 0});
+  Json pose = file.gltf["animations"][0];
+  pose["name"] = "T-Pose";
+  file.gltf["animations"] = {pose};
+  auto alone = load_object(file.write() + ":alive");
+  ASSERT_TRUE(alone.ok()) << alone.error().message;
+  ASSERT_EQ(alone->warnings.size(), 2U);
+  EXPECT_TRUE(
+      alone->warnings[1].ends_with("animation 'T-Pose' has one moment only, so it stands still"));
+  for (const double time_s : {0.0, 0.7, -3.0}) {
+    alone->move_to(time_s);
+    expect_at(alone->soup->vertices[0], {0, 2, 0});
+  }
+  file.gltf["animations"] = {
+      {{"name", "Walk"}, {"channels", Json::array()}, {"samplers", Json::array()}}};
+  file.animate(0, "translation", "LINEAR", {0, 1}, {0, 0, 0, 0, 1, 0});
+  file.gltf["accessors"][file.gltf["animations"][0]["samplers"][0]["input"].get<std::size_t>()]
+           ["max"] = {1};
+  file.gltf["animations"] = {pose, file.gltf["animations"][0]};
+  const auto first = load_object(file.write() + ":alive");
+  ASSERT_TRUE(first.ok()) << first.error().message;
+  EXPECT_TRUE(first->warnings.at(1).ends_with("stands still; others: Walk"));
+}
+
+TEST(AnimatedMesh, TheEndingMayBeInCapitals) {
+  GltfFile file("nade_capitals");
+  file.animate(0, "translation", "LINEAR", {0, 1}, {0, 0, 0, 0, 1, 0});
+  const std::filesystem::path path = file.write();
+  std::filesystem::path capitals = path;
+  capitals.replace_extension(".GLTF");
+  std::filesystem::copy_file(path, capitals, std::filesystem::copy_options::overwrite_existing);
+  const auto object = load_object(capitals.string() + ":alive");
+  ASSERT_TRUE(object.ok()) << object.error().message;
+  EXPECT_TRUE(object->animation.has_value());
 }
 
 TEST(AnimatedMesh, AnObjectIsAliveWhereItsNameSaysSo) {

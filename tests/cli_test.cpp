@@ -260,6 +260,19 @@ TEST_F(Cli, InspectReadsStandardInput) {
   EXPECT_EQ(ran.err, "");
 }
 
+TEST_F(Cli, InspectListsWhatIsInAMesh) {
+  write_file(path("Block.OFF"),
+             "OFF\n4 4 0\n0 0 0\n1 0 0\n0 2 0\n0 0 3\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  const Ran ran = nade("inspect Block.OFF --json");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const nlohmann::json report = nlohmann::json::parse(ran.out);
+  EXPECT_EQ(report["triangles"], 4);
+  EXPECT_EQ(report["size_m"], nlohmann::json({1.0, 2.0, 3.0}));
+  EXPECT_EQ(report["animations"], nlohmann::json::array());
+  const Ran words = nade("inspect Block.OFF");
+  EXPECT_NE(words.out.find("1 x 2 x 3 m"), std::string::npos) << words.out;
+}
+
 TEST_F(Cli, GzipFollowsTheName) {
   make_stroke("in.jsonl.gz");
   EXPECT_EQ(read_file(path("in.jsonl.gz")).substr(0, 2), "\x1f\x8b");

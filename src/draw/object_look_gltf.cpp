@@ -2,7 +2,7 @@
 #include <stb/stb_image.h>
 
 #include <algorithm>
-#include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
@@ -34,11 +34,26 @@ Vec3f vector_at(const std::vector<float>& numbers, std::size_t i, std::size_t wi
   return {numbers[width * i], numbers[width * i + 1], numbers[width * i + 2]};
 }
 
-/// PNG or JPEG.
-std::optional<Image> decode_picture(const std::vector<unsigned char>& bytes) {
+/// Pixels that a file's pictures may have together, and more for each byte of its buffers: a
+/// picture of one colour has a thousand pixels to a byte.
+constexpr std::size_t kFreePixels = 48'000'000;
+constexpr std::size_t kPixelsPerByte = 16;
+
+/// PNG or JPEG, of no more pixels than are left, which it lessens.
+std::optional<Image> decode_picture(const std::string& bytes, std::size_t& pixels_left) {
+  if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) return std::nullopt;
+  const auto* const data = reinterpret_cast<const stbi_uc*>(bytes.data());
+  const int size = static_cast<int>(bytes.size());
   Image image;
-  stbi_uc* const pixels = stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()),
-                                                &image.width, &image.height, nullptr, 4);
+  if (stbi_info_from_memory(data, size, &image.width, &image.height, nullptr) == 0) {
+    return std::nullopt;
+  }
+  const std::size_t count =
+      static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  if (count > pixels_left) return std::nullopt;
+  pixels_left -= count;
+  stbi_uc* const pixels =
+      stbi_load_from_memory(data, size, &image.width, &image.height, nullptr, 4);
   if (pixels == nullptr) return std::nullopt;
   image.rgba.assign(pixels, pixels + 4 * std::ptrdiff_t{image.width} * image.height);
   stbi_image_free(pixels);
@@ -49,7 +64,11 @@ std::optional<Image> decode_picture(const std::vector<unsigned char>& bytes) {
 class Wardrobe {
  public:
   Wardrobe(const tinygltf::Model& model, const std::string& path, gltf::Rig rig)
-      : model_(model), path_(path), rig_(std::move(rig)) {}
+      : model_(model), path_(path), rig_(std::move(rig)) {
+    for (const tinygltf::Buffer& buffer : model.buffers) {
+      pixels_left_ += kPixelsPerByte * buffer.data.size();
+    }
+  }
 
   DressedObject dressed() {
     std::vector<Vec3f> at_normals(rig_.vertex_count());
@@ -135,16 +154,13 @@ class Wardrobe {
   }
 
   std::shared_ptr<const Image> decoded(int source) {
-    const tinygltf::Image& from = model_.images[static_cast<std::size_t>(source)];
-    if (from.image.empty() && !from.uri.empty()) {
-      const Result<Image> beside =
-          load_image((std::filesystem::path(path_).parent_path() / from.uri).string());
-      if (beside) return std::make_shared<const Image>(*beside);
-      dressed_.warnings.push_back(
-          fmt::format("{}: its texture is not shown: {}", path_, beside.error().message));
+    const Result<std::string> bytes =
+        gltf::read_picture(model_, path_, static_cast<std::size_t>(source));
+    if (!bytes) {
+      dressed_.warnings.push_back(bytes.error().message + ", so it is not shown");
       return nullptr;
     }
-    std::optional<Image> image = decode_picture(from.image);
+    std::optional<Image> image = decode_picture(*bytes, pixels_left_);
     if (image) return std::make_shared<const Image>(std::move(*image));
     dressed_.warnings.push_back(fmt::format(
         "{}: texture {}: expected a PNG or JPEG picture, so it is not shown", path_, source));
@@ -155,13 +171,14 @@ class Wardrobe {
   const std::string& path_;
   gltf::Rig rig_;
   std::map<int, std::shared_ptr<const Image>> textures_;
+  std::size_t pixels_left_ = kFreePixels;
   DressedObject dressed_;
 };
 
 }  // namespace
 
 Result<DressedObject> load_gltf_meshes(const std::string& path) {
-  const Result<tinygltf::Model> model = gltf::read_model(path, gltf::Pictures::kept);
+  const Result<tinygltf::Model> model = gltf::read_model(path);
   if (!model) return model.error();
   Result<gltf::Rig> rig = gltf::read_rig(*model, path);
   if (!rig) return rig.error();

@@ -10,12 +10,14 @@
 
 namespace nade::gltf {
 
-/// A picture's bytes as the file has them, PNG or JPEG, in its `Image::image`; or none.
-enum class Pictures : std::uint8_t { left_out, kept };
+/// Reads a .glb or .gltf file, told apart by content, with its buffers but without its pictures'
+/// bytes. Of a node's extensions there is KHR_node_visibility, where it hides the node. A file that
+/// would have much more decoded than it has bytes is refused.
+[[nodiscard]] Result<tinygltf::Model> read_model(const std::string& path);
 
-/// Reads a .glb or .gltf file, told apart by content.
-[[nodiscard]] Result<tinygltf::Model> read_model(const std::string& path,
-                                                 Pictures pictures = Pictures::left_out);
+/// The bytes of a picture of the model as the file has them, PNG or JPEG.
+[[nodiscard]] Result<std::string> read_picture(const tinygltf::Model& model,
+                                               const std::string& path, std::size_t index);
 
 /// What of a model is being read, for the sentence of an error.
 struct AccessorRef {

@@ -149,6 +149,22 @@ void Track::at(double time_s, std::span<double> value) const noexcept {
   if (property == Property::rotation) normalise(value);
 }
 
+std::vector<MeshAnimation> animations_of(const tinygltf::Model& model) {
+  std::vector<MeshAnimation> all;
+  for (const tinygltf::Animation& animation : model.animations) {
+    MeshAnimation& known = all.emplace_back();
+    known.name = animation.name;
+    for (const tinygltf::AnimationSampler& sampler : animation.samplers) {
+      const auto times = static_cast<std::size_t>(sampler.input);
+      if (sampler.input < 0 || times >= model.accessors.size()) continue;
+      // The format asks for the greatest time here.
+      const std::vector<double>& greatest = model.accessors[times].maxValues;
+      if (!greatest.empty()) known.duration_s = std::max(known.duration_s, greatest.front());
+    }
+  }
+  return all;
+}
+
 Result<std::vector<Track>> read_tracks(const tinygltf::Model& model, const std::string& path,
                                        const tinygltf::Animation& animation,
                                        std::span<const std::size_t> morph_targets) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gltf_accessor.h"
+#include "nade/io/mesh_file.h"
 
 namespace nade::gltf {
 
@@ -26,6 +27,9 @@ struct Track {
   /// The value at a time, held before the first key and after the last. `value` holds `width`.
   void at(double time_s, std::span<double> value) const noexcept;
 };
+
+/// All animations of a model, in its order; how long each lasts is as the file says it, unchecked.
+[[nodiscard]] std::vector<MeshAnimation> animations_of(const tinygltf::Model& model);
 
 /// An animation's tracks. Channels of nodes that are not there, or of other properties, are left
 /// out. `morph_targets` has the number of each node's targets.

@@ -2,13 +2,23 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "json_text.h"
 #include "nade/status.h"
 
 namespace nade::gltf {
 
-/// Refuses a .glb or .gltf file, given whole, for what tinygltf would pass over or not put clearly:
-/// another version, an extension that must be understood and is not, numbers that are none.
-[[nodiscard]] Status check_document(const std::string& path, std::string_view bytes);
+/// A .glb or .gltf file taken apart, with nothing of it left that we do not use.
+struct Document {
+  io::Json json;                     ///< without pictures, extras, and what the buffers' uris were
+  std::vector<std::string> buffers;  ///< each as long as the file says
+  io::Json pictures;                 ///< its "images"; an array
+};
+
+/// Takes a file apart, given whole. Refuses what tinygltf would pass over or not put clearly:
+/// another version, an extension that must be understood and is not, numbers that are none,
+/// buffers that are not there, values nested too deep.
+[[nodiscard]] Result<Document> read_document(const std::string& path, std::string_view bytes);
 
 }  // namespace nade::gltf

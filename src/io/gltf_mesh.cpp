@@ -2,6 +2,7 @@
 #include <string_view>
 #include <utility>
 
+#include "gltf_animation.h"
 #include "gltf_rig.h"
 #include "mesh_formats.h"
 
@@ -27,6 +28,11 @@ std::optional<MeshPlace> place_of(const tinygltf::Node& node, const Eigen::Matri
   return place;
 }
 
+const std::string& name_of(const tinygltf::Model& model, const gltf::Piece& piece) {
+  const std::string& name = model.meshes[piece.mesh].name;
+  return name.empty() ? model.nodes[piece.node].name : name;
+}
+
 }  // namespace
 
 Result<MeshFile> read_gltf(const std::string& path) {
@@ -42,8 +48,12 @@ Result<MeshFile> read_gltf(const std::string& path) {
     for (const auto& [a, b, c] : gltf::triangles_of(*rig, piece)) {
       file.soup.triangles.push_back({first + a, first + b, first + c});
     }
+    if (piece.primitive == 0) file.parts.push_back({name_of(*model, piece), 0, 0});
+    file.parts.back().vertices += piece.positions.size();
+    file.parts.back().triangles += piece.triangles.size();
     first += static_cast<std::uint32_t>(piece.positions.size());
   }
+  file.animations = gltf::animations_of(*model);
   for (const std::size_t i : rig->shown) {
     if (auto place = place_of(model->nodes[i], rig->worlds[i])) {
       file.places.push_back(std::move(*place));

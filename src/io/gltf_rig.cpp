@@ -47,10 +47,10 @@ void carry(const Rig& rig, const Piece& piece, std::span<Vec3f> vertices) noexce
   }
   const std::vector<Matrix34f>& bones = rig.skins[*piece.skin].bones;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const Carriers& carriers = piece.carriers[i];
-    Matrix34f blend = carriers.weight[0] * bones[carriers.bone[0]];
-    for (std::size_t k = 1; k < 4; ++k) {
-      if (carriers.weight[k] != 0.0F) blend += carriers.weight[k] * bones[carriers.bone[k]];
+    const Carrier* const carriers = piece.carriers.data() + piece.carriers_each * i;
+    Matrix34f blend = carriers[0].weight * bones[carriers[0].bone];
+    for (std::size_t k = 1; k < piece.carriers_each; ++k) {
+      if (carriers[k].weight != 0.0F) blend += carriers[k].weight * bones[carriers[k].bone];
     }
     vertices[i] = Vec3f(blend.leftCols<3>() * vertices[i] + blend.col(3));
   }

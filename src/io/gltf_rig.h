@@ -40,10 +40,10 @@ struct Skin {
   std::vector<Matrix34f> bones;  ///< room: the joints' transforms from the bind pose
 };
 
-/// Bones of a vertex, the weights a sum of 1.
-struct Carriers {
-  std::array<std::uint16_t, 4> bone{};
-  std::array<float, 4> weight{};
+/// One of the bones of a vertex, whose weights have a sum of 1.
+struct Carrier {
+  std::uint16_t bone = 0;
+  float weight = 0.0F;
 };
 
 /// One primitive where one node has it.
@@ -54,7 +54,8 @@ struct Piece {
   std::optional<std::size_t> skin;
   std::vector<Eigen::Vector3f> positions;
   std::vector<std::vector<Eigen::Vector3f>> targets;    ///< what each morph target adds
-  std::vector<Carriers> carriers;                       ///< of a skin
+  std::size_t carriers_each = 0;                        ///< of a vertex: 4, 8, …
+  std::vector<Carrier> carriers;                        ///< of a skin, vertex after vertex
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< of its own positions
 };
 
@@ -62,7 +63,7 @@ struct Piece {
 struct Rig {
   std::vector<Node> nodes;
   std::vector<std::size_t> order;  ///< of the nodes, parents first
-  std::vector<std::size_t> shown;  ///< the scene's nodes, in its order
+  std::vector<std::size_t> shown;  ///< the scene's nodes that are visible, in its order
   std::vector<Skin> skins;
   std::vector<Piece> pieces;
   std::vector<Eigen::Matrix4d> worlds;  ///< room: of the nodes

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -15,6 +16,9 @@ namespace {
 
 using Vec3f = Eigen::Vector3f;
 using Matrix = Eigen::Matrix4d;
+
+/// Weights are rounded to below 0 by some programs; they count as 0.
+constexpr float kLeastWeight = -0.01F;
 
 Error bad_file(const std::string& path, std::string_view problem) {
   return {ErrorCode::bad_format, fmt::format("{}: {}", path, problem)};
@@ -45,7 +49,7 @@ std::vector<Vec3f> vectors_of(const std::vector<float>& numbers) {
   return vectors;
 }
 
-int attribute(const std::map<std::string, int>& attributes, const char* name) {
+int attribute(const std::map<std::string, int>& attributes, const std::string& name) {
   const auto found = attributes.find(name);
   return found == attributes.end() ? -1 : found->second;
 }
@@ -139,16 +143,21 @@ class Reader {
     const Result<std::vector<int>> first = first_nodes();
     if (!first) return first.error();
     std::vector<int> open(first->rbegin(), first->rend());
+    std::vector<bool> seen(rig_.nodes.size(), false);
     while (!open.empty()) {
       const int index = open.back();
       open.pop_back();
       if (index < 0 || static_cast<std::size_t>(index) >= rig_.nodes.size()) {
         return bad_file(path_, fmt::format("scene: no such node {}", index));
       }
-      rig_.shown.push_back(static_cast<std::size_t>(index));
-      const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(index)];
+      const auto at = static_cast<std::size_t>(index);
+      const tinygltf::Node& node = model_.nodes[at];
+      // A node that is hidden hides all below it.
+      if (seen[at] || node.extensions.count("KHR_node_visibility") > 0) continue;
+      seen[at] = true;
+      rig_.shown.push_back(at);
       if (node.mesh >= 0) {
-        const Status status = read_mesh(static_cast<std::size_t>(index));
+        const Status status = read_mesh(at);
         if (!status) return status;
       }
       open.insert(open.end(), node.children.rbegin(), node.children.rend());
@@ -169,10 +178,9 @@ class Reader {
       piece.primitive = i;
       const Status status = read_primitive(mesh.primitives[i], piece);
       if (!status) return status;
-      vertices_ += piece.positions.size();
-      if (rig_.pieces.size() == kMostPieces || vertices_ > kMostVertices) {
-        return bad_file(path_, fmt::format("node {}: expected at most {} parts and {} vertices",
-                                           node, kMostPieces, kMostVertices));
+      if (rig_.pieces.size() == kMostPieces) {
+        return bad_file(path_,
+                        fmt::format("node {}: expected at most {} parts", node, kMostPieces));
       }
       std::vector<double>& weights = rig_.nodes[node].weights;
       weights.resize(std::max(weights.size(), piece.targets.size()), 0.0);
@@ -243,54 +251,66 @@ class Reader {
     return ok_status();
   }
 
+  /// Four carriers of a vertex are in JOINTS_0 and WEIGHTS_0, the next four in JOINTS_1 and
+  /// WEIGHTS_1, and so on.
   [[nodiscard]] Status read_carriers(const tinygltf::Primitive& primitive, Piece& piece) const {
-    const auto joints =
-        read_integers({model_, path_, "JOINTS_0", attribute(primitive.attributes, "JOINTS_0")}, 4);
-    if (!joints) return joints.error();
-    const auto weights =
-        read_floats({model_, path_, "WEIGHTS_0", attribute(primitive.attributes, "WEIGHTS_0")}, 4);
-    if (!weights) return weights.error();
-    const std::size_t count = piece.positions.size();
-    if (joints->size() != 4 * count || weights->size() != 4 * count) {
-      return bad_file(path_, fmt::format("JOINTS_0 and WEIGHTS_0: expected {} elements, one for "
-                                         "each vertex",
-                                         count));
+    std::size_t sets = 1;
+    while (attribute(primitive.attributes, fmt::format("JOINTS_{}", sets)) >= 0) ++sets;
+    piece.carriers_each = 4 * sets;
+    piece.carriers.resize(piece.carriers_each * piece.positions.size());
+    for (std::size_t set = 0; set < sets; ++set) {
+      const Status status = read_set(primitive, set, piece);
+      if (!status) return status;
     }
-    const std::size_t bones = std::min<std::size_t>(rig_.skins[*piece.skin].joints.size(), 65535);
-    for (std::size_t i = 0; i < count; ++i) {
-      Carriers carriers;
+    for (std::size_t i = 0; i < piece.carriers.size(); i += piece.carriers_each) {
+      const std::span<Carrier> of_vertex(piece.carriers.data() + i, piece.carriers_each);
       float sum = 0.0F;
-      for (std::size_t k = 0; k < 4; ++k) {
-        const float weight = (*weights)[4 * i + k];
-        const std::uint32_t bone = (*joints)[4 * i + k];
-        if (!(weight >= 0.0F && weight <= 1e6F)) {
-          return bad_file(path_, fmt::format("WEIGHTS_0 of vertex {}: expected 0 to 1", i));
-        }
-        if (weight == 0.0F) continue;
-        if (bone >= bones) {
-          return bad_file(path_, fmt::format("JOINTS_0 of vertex {}: expected joints below {}, "
-                                             "found {}",
-                                             i, bones, bone));
-        }
-        carriers.bone[k] = static_cast<std::uint16_t>(bone);
-        carriers.weight[k] = weight;
-        sum += weight;
-      }
+      for (const Carrier& carrier : of_vertex) sum += carrier.weight;
       // What nothing carries goes with the first bone, as in common viewers.
-      if (sum == 0.0F) carriers.weight[0] = sum = 1.0F;
-      for (float& weight : carriers.weight) weight /= sum;
-      piece.carriers.push_back(carriers);
+      if (sum == 0.0F) of_vertex[0].weight = sum = 1.0F;
+      for (Carrier& carrier : of_vertex) carrier.weight /= sum;
     }
     return ok_status();
   }
 
-  // A few bytes can name one mesh any number of times.
+  [[nodiscard]] Status read_set(const tinygltf::Primitive& primitive, std::size_t set,
+                                Piece& piece) const {
+    const std::string joints_name = fmt::format("JOINTS_{}", set);
+    const std::string weights_name = fmt::format("WEIGHTS_{}", set);
+    const auto joints = read_integers(
+        {model_, path_, joints_name.c_str(), attribute(primitive.attributes, joints_name)}, 4);
+    if (!joints) return joints.error();
+    const auto weights = read_floats(
+        {model_, path_, weights_name.c_str(), attribute(primitive.attributes, weights_name)}, 4);
+    if (!weights) return weights.error();
+    const std::size_t count = piece.positions.size();
+    if (joints->size() != 4 * count || weights->size() != 4 * count) {
+      return bad_file(path_, fmt::format("{} and {}: expected {} elements, one for each vertex",
+                                         joints_name, weights_name, count));
+    }
+    const std::size_t bones = std::min<std::size_t>(rig_.skins[*piece.skin].joints.size(), 65535);
+    for (std::size_t i = 0; i < 4 * count; ++i) {
+      const float weight = (*weights)[i];
+      const std::uint32_t bone = (*joints)[i];
+      if (!(weight >= kLeastWeight && weight <= 1e6F)) {
+        return bad_file(path_,
+                        fmt::format("{} of vertex {}: expected 0 to 1", weights_name, i / 4));
+      }
+      if (weight <= 0.0F) continue;
+      if (bone >= bones) {
+        return bad_file(path_, fmt::format("{} of vertex {}: expected joints below {}, found {}",
+                                           joints_name, i / 4, bones, bone));
+      }
+      piece.carriers[piece.carriers_each * (i / 4) + 4 * set + i % 4] = {
+          static_cast<std::uint16_t>(bone), weight};
+    }
+    return ok_status();
+  }
+
   static constexpr std::size_t kMostPieces = 100'000;
-  static constexpr std::size_t kMostVertices = 100'000'000;
   const tinygltf::Model& model_;
   const std::string& path_;
   Rig rig_;
-  std::size_t vertices_ = 0;
 };
 
 }  // namespace

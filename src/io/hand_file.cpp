@@ -29,6 +29,8 @@ using JointMap = std::vector<std::optional<Joint>>;
 
 /// Inverse bind matrices may be off by this and count as unscaled.
 constexpr double kScaleNoise = 1e-3;
+/// Weights are rounded to below 0 by some programs; they count as 0.
+constexpr float kLeastWeight = -0.01F;
 /// Wrist to middle knuckle, metres: what a hand in metres can measure.
 constexpr double kShortestLength_m = 0.02;
 constexpr double kLongestLength_m = 0.3;
@@ -68,16 +70,24 @@ std::vector<int> parents_of_nodes(const tinygltf::Model& model) {
 
 JointMap map_joints(const tinygltf::Model& model, const tinygltf::Skin& skin) {
   const std::vector<int> parents = parents_of_nodes(model);
+  std::vector<std::optional<Joint>> nearest(parents.size());
+  std::vector<bool> known(parents.size(), false);
   JointMap map;
-  for (int node : skin.joints) {
-    std::optional<Joint> joint = joint_of_node(model, node);
-    // As many steps as there are nodes: a file may have its parents in a circle.
-    for (std::size_t step = 0; !joint && step < parents.size(); ++step) {
-      if (node < 0 || static_cast<std::size_t>(node) >= parents.size()) break;
-      node = parents[static_cast<std::size_t>(node)];
-      joint = joint_of_node(model, node);
+  for (const int joint : skin.joints) {
+    // Each node is passed once, also where a file has its parents in a circle.
+    std::vector<std::size_t> passed;
+    std::optional<Joint> found;
+    int node = joint;
+    while (!found && node >= 0 && static_cast<std::size_t>(node) < parents.size()) {
+      const auto at = static_cast<std::size_t>(node);
+      found = known[at] ? nearest[at] : joint_of_node(model, node);
+      if (known[at]) break;
+      known[at] = true;
+      passed.push_back(at);
+      node = parents[at];
     }
-    map.push_back(joint);
+    for (const std::size_t at : passed) nearest[at] = found;
+    map.push_back(found);
   }
   return map;
 }
@@ -228,46 +238,70 @@ Status read_shape(const PrimitiveSource& source, HandMesh& mesh) {
   return ok_status();
 }
 
-Status read_weights(const PrimitiveSource& source, const JointMap& map, HandMesh& mesh) {
-  const Result<std::vector<std::uint32_t>> joints =
-      gltf::read_integers(source.accessor("JOINTS_0"), 4);
+/// A bone of a vertex while it is read.
+struct Share {
+  std::uint8_t bone;
+  float weight;
+};
+
+/// Adds what JOINTS_`set` and WEIGHTS_`set` say to the shares of each vertex.
+Status read_shares(const PrimitiveSource& source, const JointMap& map, std::size_t set,
+                   std::vector<std::vector<Share>>& shares) {
+  const std::string joints_name = fmt::format("JOINTS_{}", set);
+  const std::string weights_name = fmt::format("WEIGHTS_{}", set);
+  const auto joints = gltf::read_integers(source.accessor(joints_name.c_str()), 4);
   if (!joints) return joints.error();
-  const Result<std::vector<float>> weights = gltf::read_floats(source.accessor("WEIGHTS_0"), 4);
+  const auto weights = gltf::read_floats(source.accessor(weights_name.c_str()), 4);
   if (!weights) return weights.error();
-  const std::size_t count = mesh.vertices.size() - mesh.bones.size();
-  if (joints->size() != 4 * count || weights->size() != 4 * count) {
-    return bad_hand(source.path,
-                    fmt::format("JOINTS_0 and WEIGHTS_0: expected {} elements, one for "
-                                "each vertex",
-                                count));
+  if (joints->size() != 4 * shares.size() || weights->size() != 4 * shares.size()) {
+    return bad_hand(source.path, fmt::format("{} and {}: expected {} elements, one for each vertex",
+                                             joints_name, weights_name, shares.size()));
   }
-  for (std::size_t i = 0; i < count; ++i) {
-    std::array<std::uint8_t, 4> bones{};
-    std::array<float, 4> shares{};
-    float sum = 0.0F;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const float weight = (*weights)[4 * i + k];
-      const std::uint32_t joint = (*joints)[4 * i + k];
-      if (!(weight >= 0.0F && weight <= 1e6F)) {
-        return bad_hand(source.path, fmt::format("WEIGHTS_0 of vertex {}: expected 0 to 1", i));
-      }
-      bones[k] = static_cast<std::uint8_t>(index_of(Joint::wrist));
-      if (weight == 0.0F) continue;
-      if (joint >= map.size() || !map[joint]) {
-        return bad_hand(source.path, fmt::format("JOINTS_0 of vertex {}: joint {} of the skin is "
-                                                 "neither a joint of the hand nor below one",
-                                                 i, joint));
-      }
-      bones[k] = static_cast<std::uint8_t>(index_of(*map[joint]));
-      shares[k] = weight;
-      sum += weight;
+  for (std::size_t i = 0; i < joints->size(); ++i) {
+    const float weight = (*weights)[i];
+    const std::uint32_t joint = (*joints)[i];
+    if (!(weight >= kLeastWeight && weight <= 1e6F)) {
+      return bad_hand(source.path,
+                      fmt::format("{} of vertex {}: expected 0 to 1", weights_name, i / 4));
     }
-    if (!(sum > 0.0F)) {
+    if (weight <= 0.0F) continue;
+    if (joint >= map.size() || !map[joint]) {
+      return bad_hand(source.path, fmt::format("{} of vertex {}: joint {} of the skin is neither a "
+                                               "joint of the hand nor below one",
+                                               joints_name, i / 4, joint));
+    }
+    shares[i / 4].push_back({static_cast<std::uint8_t>(index_of(*map[joint])), weight});
+  }
+  return ok_status();
+}
+
+/// Of more than four bones the four that weigh most.
+Status read_weights(const PrimitiveSource& source, const JointMap& map, HandMesh& mesh) {
+  std::vector<std::vector<Share>> all(mesh.vertices.size() - mesh.bones.size());
+  for (std::size_t set = 0; set == 0 || source.has(fmt::format("JOINTS_{}", set).c_str()); ++set) {
+    const Status status = read_shares(source, map, set, all);
+    if (!status) return status;
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].empty()) {
       return bad_hand(source.path, fmt::format("WEIGHTS_0 of vertex {}: all are 0", i));
     }
-    for (float& share : shares) share /= sum;
+    if (all[i].size() > 4) {
+      std::stable_sort(all[i].begin(), all[i].end(),
+                       [](const Share& a, const Share& b) { return a.weight > b.weight; });
+      all[i].resize(4);
+    }
+    std::array<std::uint8_t, 4> bones{};
+    bones.fill(static_cast<std::uint8_t>(index_of(Joint::wrist)));
+    std::array<float, 4> weights{};
+    float sum = 0.0F;
+    for (const Share& share : all[i]) sum += share.weight;
+    for (std::size_t k = 0; k < all[i].size(); ++k) {
+      bones[k] = all[i][k].bone;
+      weights[k] = all[i][k].weight / sum;
+    }
     mesh.bones.push_back(bones);
-    mesh.weights.push_back(shares);
+    mesh.weights.push_back(weights);
   }
   return ok_status();
 }

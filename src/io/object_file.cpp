@@ -143,6 +143,7 @@ Result<LoadedObject> make_mesh(const std::string& spec, const MeshSource& source
   object.spec = spec;
   object.file = path;
   object.warnings = warnings_about((*surface)->report(), spec);
+  if (animation && !animation->warning().empty()) object.warnings.push_back(animation->warning());
   object.places = std::move(file->places);
   object.surface = std::move(surface).value();
   if (object.places.empty()) object.places.push_back(top_of(file->soup, *object.surface));
@@ -164,7 +165,7 @@ Result<LoadedObject> load_alive(const std::string& spec) {
   const std::size_t colon = spec.find(kAlive);
   const std::string name = spec.substr(0, colon);
   const std::string rest = spec.substr(colon + kAlive.size());
-  const bool moves = name == "dog" || name.ends_with(".glb") || name.ends_with(".gltf");
+  const bool moves = name == "dog" || ending_of(name) == ".glb" || ending_of(name) == ".gltf";
   if (!moves || (!rest.empty() && !rest.starts_with(':'))) {
     return misuse(fmt::format(
         "object '{}': expected dog:alive, or a .glb or .gltf file with ':alive' after it", spec));

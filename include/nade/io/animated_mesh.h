@@ -25,8 +25,10 @@ class AnimatedMesh {
 
   /// As many as `load_mesh` gives, and in its order.
   [[nodiscard]] std::size_t vertex_count() const;
-  /// Of one round, seconds, > 0.
+  /// Of one round, seconds; 0 where the animation has one moment only, in which it then stands.
   [[nodiscard]] double duration_s() const;
+  /// A sentence where it stands still, with the file's animations that move; else empty.
+  [[nodiscard]] const std::string& warning() const;
 
   /// The vertices at a time since the animation's start, any finite number: it goes round and
   /// round. `vertices` holds `vertex_count()`. Does not allocate. Not from two threads at once.

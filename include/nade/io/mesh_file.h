@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -15,10 +16,25 @@ struct MeshPlace {
   Pose pose;
 };
 
+/// One of the meshes of a file, where its scene has it.
+struct MeshPart {
+  std::string name;  ///< may be empty
+  std::size_t vertices = 0;
+  std::size_t triangles = 0;
+};
+
+/// An animation of a glTF file.
+struct MeshAnimation {
+  std::string name;         ///< may be empty
+  double duration_s = 0.0;  ///< as the file says it
+};
+
 /// What a mesh file holds: all its triangles in one frame, and its places.
 struct MeshFile {
   TriangleSoup soup;
   std::vector<MeshPlace> places;
+  std::vector<MeshPart> parts{};            ///< of a glTF file; of others none
+  std::vector<MeshAnimation> animations{};  ///< of a glTF file
 };
 
 /// A file name's ending in lower case, ".glb" for "Dog.GLB"; empty where there is none.
