@@ -44,6 +44,11 @@ TEST_F(BenchCommand, QuickSuiteIsTheSameWhateverTheJobs) {
   EXPECT_EQ(json["methods"]["none"]["pop_max_mm"]["worst"], 0.0);
   EXPECT_LT(json["methods"]["nade"]["penetration_max_mm"]["median"],
             json["methods"]["none"]["penetration_max_mm"]["median"]);
+  const auto& missing = json["methods"]["none"]["penetration_max_mm"];
+  EXPECT_EQ(missing["met"], 0);
+  EXPECT_GT(missing["shortfall_mean"], 3.0);
+  EXPECT_EQ(json["held_out"].size(), 12u);
+  EXPECT_EQ(json["methods"]["none"]["print_share"]["median"], 1.0);
   const std::string table = read_file(path("one.md"));
   EXPECT_NE(table.find("| penetration_max_mm (at most 2) |"), std::string::npos);
   const std::size_t missed = table.find("| paper misses the target of | in |");

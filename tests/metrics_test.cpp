@@ -514,7 +514,7 @@ TEST(Metrics, FingersIntoEachOther) {
               return hand;
             }).overlap_p99_mm;
   };
-  EXPECT_EQ(overlap_mm(0.03), 0.0);
+  EXPECT_EQ(overlap_mm(0.015), 0.0);
   EXPECT_NEAR(overlap_mm(0.004) - overlap_mm(0.006), 2.0, 1e-6);
 }
 

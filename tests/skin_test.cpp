@@ -41,7 +41,7 @@ TEST(Skin, EachRegionIsThereAndBothHandsAreAlike) {
   const auto left_cm2 = areas_cm2(measure_skin(left));
   for (std::size_t i = 0; i < kSkinRegionCount; ++i) {
     EXPECT_GT(right_cm2[i], 2.0) << name_of(static_cast<SkinRegion>(i));
-    EXPECT_NEAR(left_cm2[i], right_cm2[i], 0.1 * right_cm2[i])
+    EXPECT_NEAR(left_cm2[i], right_cm2[i], 0.2 * right_cm2[i])
         << name_of(static_cast<SkinRegion>(i));
   }
 }

@@ -77,6 +77,21 @@ TEST(Suite, TheSameEveryTime) {
   EXPECT_EQ(once.back().name(), twice.back().name());
 }
 
+/// A third of the drawn seeds; never the strokes that everyone looks at.
+TEST(Suite, AThirdOfTheSeedsIsHeldOut) {
+  std::size_t drawn = 0;
+  std::size_t held_out = 0;
+  for (const SuiteCase& suite_case : suite_cases({.size = SuiteSize::full})) {
+    const bool is_drawn = suite_case.synth.seed != SynthOptions{}.seed;
+    if (is_drawn) ++drawn;
+    if (!suite_case.is_held_out()) continue;
+    ++held_out;
+    EXPECT_TRUE(is_drawn) << suite_case.name();
+  }
+  EXPECT_NEAR(static_cast<double>(held_out), static_cast<double>(drawn) / 3.0,
+              0.1 * static_cast<double>(drawn));
+}
+
 TEST(Suite, CoversWhatHandsDo) {
   std::set<Stroke> strokes;
   std::set<NoiseModel> noises;

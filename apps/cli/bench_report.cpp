@@ -28,28 +28,25 @@ std::string shown(const MetricTarget& target) {
 
 bool has_target(const MetricTarget& target) { return target.at_least || target.at_most; }
 
+/// How far a value is from meeting a target.
+double shortfall_of(const MetricTarget& target, double value) {
+  return std::max(
+      {0.0, target.at_least.value_or(value) - value, value - target.at_most.value_or(value)});
+}
+
+bool is_in(CaseSet set, bool held_out) {
+  return set == CaseSet::all || held_out == (set == CaseSet::held_out);
+}
+
 std::string met_of(const BenchFigure& figure, const BenchSummary& summary) {
   if (!has_target(figure.target)) return "";
   return fmt::format("{}/{}", summary.met, summary.measured);
-}
-
-/// By how much those miss the target, in the mean, that do.
-std::string short_of(const BenchFigure& figure, const BenchSummary& summary) {
-  if (!has_target(figure.target) || summary.met == summary.measured) return "";
-  return shown(summary.shortfall);
 }
 
 std::string title_of(const BenchFigure& figure) {
   std::string title = figure.key;
   if (has_target(figure.target)) title += fmt::format(" ({})", shown(figure.target));
   return title;
-}
-
-/// How far a value is from its target, at least 0.
-double shortfall_of(const MetricTarget& target, double value) {
-  const double below = target.at_least ? *target.at_least - value : 0.0;
-  const double above = target.at_most ? value - *target.at_most : 0.0;
-  return std::max({0.0, below, above});
 }
 
 /// The cases in which a method misses a figure's target, the worst first, as "value case; ...".
@@ -70,6 +67,15 @@ std::string missed_in(const BenchReport& report, std::size_t method, const Bench
   return text;
 }
 
+Json held_out_json(const BenchFigure& figure, const BenchSummary& summary) {
+  Json json{{"median", summary.median}, {"worst", summary.worst}, {"measured", summary.measured}};
+  if (has_target(figure.target)) {
+    json["met"] = summary.met;
+    json["shortfall_mean"] = summary.shortfall;
+  }
+  return json;
+}
+
 }  // namespace
 
 std::vector<BenchFigure> bench_figures() {
@@ -87,24 +93,25 @@ std::vector<BenchFigure> bench_figures() {
 }
 
 std::optional<BenchSummary> summary_of(const BenchReport& report, std::size_t method,
-                                       const BenchFigure& figure) {
+                                       const BenchFigure& figure, CaseSet set) {
   BenchSummary summary;
   std::vector<double> values;
   for (std::size_t i = 0; i < report.cases.size(); ++i) {
+    if (!is_in(set, report.held_out[i])) continue;
     const std::optional<double> value = figure.of(report.at(i, method));
     if (!value) continue;
     if (meets(figure.target, *value).value_or(false)) ++summary.met;
+    summary.shortfall += shortfall_of(figure.target, *value);
     const bool worse = badness(figure.target, *value) > badness(figure.target, summary.worst);
     if (values.empty() || worse) {
       summary.worst = *value;
       summary.worst_case = i;
     }
-    summary.shortfall += shortfall_of(figure.target, *value);
     values.push_back(*value);
   }
   if (values.empty()) return std::nullopt;
   summary.measured = values.size();
-  if (summary.met < summary.measured) {
+  if (summary.measured > summary.met) {
     summary.shortfall /= static_cast<double>(summary.measured - summary.met);
   }
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
@@ -116,8 +123,11 @@ std::optional<BenchSummary> summary_of(const BenchReport& report, std::size_t me
 std::string as_text(const BenchReport& report) {
   std::string text;
   auto out = std::back_inserter(text);
-  fmt::format_to(out, "{} cases\n\n{:<30}{:<14}{:>10}{:>12}{:>10}{:>10}  {}\n", report.cases.size(),
-                 "metric", "method", "median", "worst", "met", "short", "worst case");
+  const auto held_out = std::count(report.held_out.begin(), report.held_out.end(), true);
+  fmt::format_to(
+      out, "{} cases, {} of them held out\n\n{:<30}{:<14}{:>10}{:>12}{:>10}{:>10}{:>10}  {}\n",
+      report.cases.size(), held_out, "metric", "method", "median", "worst", "met", "held out",
+      "short by", "worst case");
   for (const BenchFigure& figure : bench_figures()) {
     // The target stands under the name.
     std::vector<std::string> titles{
@@ -127,8 +137,11 @@ std::string as_text(const BenchReport& report) {
       const auto summary = summary_of(report, m, figure);
       fmt::format_to(out, "{:<30}{:<14}", titles[m], report.methods[m]);
       if (summary) {
-        fmt::format_to(out, "{:>10}{:>12}{:>10}{:>10}  {}", shown(summary->median),
-                       shown(summary->worst), met_of(figure, *summary), short_of(figure, *summary),
+        const auto apart = summary_of(report, m, figure, CaseSet::held_out);
+        const bool misses = has_target(figure.target) && summary->met < summary->measured;
+        fmt::format_to(out, "{:>10}{:>12}{:>10}{:>10}{:>10}  {}", shown(summary->median),
+                       shown(summary->worst), met_of(figure, *summary),
+                       apart ? met_of(figure, *apart) : "", misses ? shown(summary->shortfall) : "",
                        report.cases[summary->worst_case]);
       } else {
         fmt::format_to(out, "{:>10}", "-");
@@ -143,7 +156,7 @@ std::string as_markdown(const BenchReport& report) {
   const std::vector<BenchFigure> figures = bench_figures();
   std::string text;
   auto out = std::back_inserter(text);
-  fmt::format_to(out, "| {} cases: median, worst (target met in; short by) |", report.cases.size());
+  fmt::format_to(out, "| {} cases: median, worst (target met in; held out) |", report.cases.size());
   for (const std::string& method : report.methods) fmt::format_to(out, " {} |", method);
   text += "\n|---|";
   for (std::size_t m = 0; m < report.methods.size(); ++m) text += "--:|";
@@ -156,11 +169,13 @@ std::string as_markdown(const BenchReport& report) {
         text += " - |";
         continue;
       }
-      std::string met = met_of(figure, *summary);
-      const std::string missing = short_of(figure, *summary);
-      if (!missing.empty()) met += "; " + missing;
+      const std::string met = met_of(figure, *summary);
+      const auto apart = summary_of(report, m, figure, CaseSet::held_out);
+      const std::string apart_met = apart ? met_of(figure, *apart) : "";
       fmt::format_to(out, " {}, {}{} |", shown(summary->median), shown(summary->worst),
-                     met.empty() ? "" : " (" + met + ")");
+                     met.empty()
+                         ? ""
+                         : fmt::format(" ({}{})", met, apart_met.empty() ? "" : "; " + apart_met));
     }
     text += '\n';
   }
@@ -209,7 +224,7 @@ std::string as_csv(const BenchReport& report) {
 }
 
 std::string as_json(const BenchReport& report) {
-  Json json{{"cases", report.cases}};
+  Json json{{"cases", report.cases}, {"held_out", report.held_out}};
   const std::vector<BenchFigure> figures = bench_figures();
   for (std::size_t m = 0; m < report.methods.size(); ++m) {
     Json& method = json["methods"][report.methods[m]];
@@ -223,7 +238,10 @@ std::string as_json(const BenchReport& report) {
                {"measured", summary->measured}};
       if (has_target(figure.target)) {
         entry["met"] = summary->met;
-        entry["shortfall"] = summary->shortfall;
+        entry["shortfall_mean"] = summary->shortfall;
+      }
+      if (const auto apart = summary_of(report, m, figure, CaseSet::held_out)) {
+        entry["held_out"] = held_out_json(figure, *apart);
       }
       Json& values = entry["values"] = Json::array();
       for (std::size_t i = 0; i < report.cases.size(); ++i) {

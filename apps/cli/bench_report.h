@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@ struct BenchReport {
   std::vector<std::string> methods;
   std::vector<std::string> cases;  ///< their names
   std::vector<CaseScore> scores;   ///< of methods within cases
+  std::vector<bool> held_out;      ///< by case: nothing is tuned on it
 
   [[nodiscard]] const CaseScore& at(std::size_t case_index, std::size_t method) const {
     return scores[case_index * methods.size() + method];
@@ -39,14 +41,16 @@ struct BenchFigure {
 struct BenchSummary {
   std::size_t measured = 0;  ///< cases that have a value
   std::size_t met = 0;       ///< of those with a value; 0 without a target
-  double shortfall = 0.0;    ///< mean of how far those are from the target that miss it
   double median = 0.0;
   double worst = 0.0;
   std::size_t worst_case = 0;
+  double shortfall = 0.0;  ///< mean distance from the target of the cases that miss it
 };
-/// No value where no case has one.
+enum class CaseSet : std::uint8_t { all, suite, held_out };
+/// No value where no case of the set has one.
 [[nodiscard]] std::optional<BenchSummary> summary_of(const BenchReport& report, std::size_t method,
-                                                     const BenchFigure& figure);
+                                                     const BenchFigure& figure,
+                                                     CaseSet set = CaseSet::all);
 
 /// The table for people; the tables of medians and of worst cases, and for each method the cases in
 /// which it misses a target; one line a case, method and figure.

@@ -176,7 +176,10 @@ Result<BenchReport> run_bench(const BenchPlan& plan, const DrawnHands& hands) {
   if (!objects) return objects.error();
   BenchReport report;
   for (const ComparedMethod& method : plan.methods) report.methods.push_back(method.name);
-  for (const SuiteCase& suite_case : plan.cases) report.cases.push_back(suite_case.name());
+  for (const SuiteCase& suite_case : plan.cases) {
+    report.cases.push_back(suite_case.name());
+    report.held_out.push_back(suite_case.is_held_out());
+  }
   report.scores.resize(plan.cases.size() * plan.methods.size());
   Workers workers(plan, hands, *objects, report.scores);
   const Status done = workers.run();

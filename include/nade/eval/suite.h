@@ -23,6 +23,10 @@ struct SuiteCase {
   /// How deep the object is pressed against a clip's palms, metres.
   double press_m = 0.03;
 
+  /// Whether methods are judged by it only and not tuned on it: strokes and tracker noise drawn
+  /// from a third of all seeds.
+  [[nodiscard]] bool is_held_out() const { return !clip && synth.seed % 3 == 0; }
+
   /// What tells it from the others, in words: "dog/back line 0.1 m/s 20 mm quest left". Only what
   /// is out of the ordinary is named after the depth.
   [[nodiscard]] std::string name() const;
