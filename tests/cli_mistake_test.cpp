@@ -263,7 +263,8 @@ TEST_F(CliMistake, AMeshInMillimetresIsToldSo) {
   const Ran large = nade("correct in.jsonl -o out.jsonl --object block.obj");
   EXPECT_EQ(large.status, 0) << large.err;
   EXPECT_EQ(lines_of(large.err).at(0),
-            "nade: block.obj: 269 m large; --scale 0.001 if its file is in millimetres");
+            "nade: block.obj: 269 m large; --scale 0.001 if its file is in millimetres, 0.01 if in "
+            "centimetres");
   EXPECT_EQ(nade("correct in.jsonl -o out.jsonl --object block.obj --scale 0.001").err, "");
 }
 

@@ -365,7 +365,11 @@ TEST_F(MeshFiles, CutOffAnywhereIsRefused) {
     // A text's last word may go on or not, and an OBJ file has no end of its own.
     for (std::size_t size = 1; size + 13 < content.size(); size += 7) {
       const std::string text = message(write(name, content.substr(0, size)));
-      EXPECT_TRUE(text != "" || name.ends_with(".obj")) << name << " cut off at " << size;
+      // Nor needs a .stl file its last line.
+      const bool whole_facets = content.substr(0, size).ends_with("endfacet\n") ||
+                                content.substr(0, size).ends_with("endfacet");
+      EXPECT_TRUE(text != "" || name.ends_with(".obj") || whole_facets)
+          << name << " cut off at " << size;
     }
   }
 }
@@ -393,6 +397,80 @@ TEST_F(MeshFiles, AMillionTriangles) {
   const auto mesh = MeshSurface::build(file->soup, "big.stl");
   EXPECT_EQ((*mesh)->report().solid, MeshSolid::closed);
   EXPECT_TRUE(load_mesh(write("big.glb", glb_binary(soup, plain_nodes()))).ok());
+}
+
+/// An L of six corners, first corner beside the notch: a fan would cover the notch.
+TEST_F(MeshFiles, ConcavePolygonsAreCutInside) {
+  const std::string rows = "0 0 0\n2 0 0\n2 1 0\n1 1 0\n1 2 0\n0 2 0\n";
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\n"
+      "property float y\nproperty float z\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n" +
+      rows;
+  for (int first = 0; first < 6; ++first) {
+    std::string corners;
+    for (int i = 0; i < 6; ++i) corners += " " + std::to_string((first + i) % 6);
+    for (const std::string& path : {write("l.off", "OFF\n6 1 0\n" + rows + "6" + corners + "\n"),
+                                    write("l.ply", ply + "6" + corners + "\n")}) {
+      const auto file = load_mesh(path);
+      ASSERT_TRUE(file.ok()) << file.error().message;
+      double area = 0.0;
+      for (const auto& [a, b, c] : file->soup.triangles) {
+        const auto& v = file->soup.vertices;
+        const double twice = static_cast<double>((v[b] - v[a]).cross(v[c] - v[a]).z());
+        EXPECT_GE(twice, 0.0);
+        area += twice / 2.0;
+      }
+      EXPECT_NEAR(area, 3.0, 1e-6) << path << " from corner " << first;
+    }
+  }
+}
+
+TEST_F(MeshFiles, SpellingsOfOffAndStl) {
+  const std::string rest = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  for (const std::string header :
+       {"OFF3 1 0\n", "off\n3 1 0\n", "OFF\n3 1\n", "OFF\n3\n1\n0\n", "\xEF\xBB\xBFOFF 3 1 0\n"}) {
+    EXPECT_EQ(message(write("a.off", header + rest)), "") << header;
+  }
+  EXPECT_EQ(message(write("a.off", "OFF\r3 1 0\r0 0 0\r1 0 0\r0 1 0\r3 0 1 2\r")), "");
+  const std::string facet =
+      "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n";
+  for (const std::string& text :
+       {"  solid a\n" + facet + "endloop\nendfacet\nendsolid\n",
+        "solid a\n" + facet + "end loop\nend facet\nend solid\n",
+        "solid a\n" + facet + "endloop\nendfacet\n",
+        std::string("SOLID A FACET NORMAL 0 0 1 OUTER LOOP VERTEX 0 0 0 VERTEX 1 0 0 VERTEX 0 1 0 "
+                    "ENDLOOP ENDFACET ENDSOLID")}) {
+    const auto file = load_mesh(write("a.stl", text));
+    ASSERT_TRUE(file.ok()) << file.error().message;
+    EXPECT_EQ(file->soup.triangles.size(), 1U) << text;
+  }
+  EXPECT_NE(message(write("a.stl", "solid a\n" + facet)), "");
+  std::string streamed = stl_binary(test::box_mesh({1, 1, 1}));
+  streamed.replace(80, 4, 4, '\0');
+  EXPECT_EQ(load_mesh(write("b.stl", streamed))->soup.triangles.size(), 12U);
+}
+
+TEST_F(MeshFiles, PlyHeadersThatSayTooMuchOrTooLittle) {
+  const std::string vertices =
+      "element vertex 4\nproperty float x\nproperty float y\n"
+      "property float z\n";
+  const std::string rows = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n";
+  const std::string start = "ply\nformat ascii 1.0\n";
+  EXPECT_EQ(message(write("a.ply", start + "element foo 18446744073709551615\n" + vertices +
+                                       "end_header\n" + rows)),
+            "a.ply: element foo: expected properties, found none");
+  EXPECT_EQ(message(write("a.ply", start + vertices +
+                                       "element face 1\nproperty list uchar int "
+                                       "ids\nend_header\n" +
+                                       rows + "3 0 1 2\n")),
+            "a.ply: element face: expected a list vertex_indices, found only 'ids'");
+  const auto strip = load_mesh(write("a.ply", start + vertices +
+                                                  "element tristrips 1\nproperty list int int "
+                                                  "vertex_indices\nend_header\n" +
+                                                  rows + "4 0 1 2 3\n"));
+  ASSERT_TRUE(strip.ok()) << strip.error().message;
+  EXPECT_EQ(strip->soup.triangles.size(), 2U);
 }
 
 }  // namespace

@@ -18,17 +18,9 @@ namespace {
   throw CLI::ValidationError(option, fmt::format("expected {}, found '{}'", expected, text));
 }
 
-/// An object so large is hardly one to stroke: its file counts in something smaller than metres.
-constexpr double kLargest_m = 20.0;
-
 void warn_of_size(const LoadedObject& object, double scale) {
-  if (!object.soup) return;
-  Eigen::AlignedBox3f bounds;
-  for (const Eigen::Vector3f& vertex : object.soup->vertices) bounds.extend(vertex);
-  const double size_m = scale * static_cast<double>(bounds.diagonal().norm());
-  if (!(size_m > kLargest_m)) return;
-  warn(fmt::format("{}: {:.3g} m large; --scale 0.001 if its file is in millimetres", object.spec,
-                   size_m));
+  const std::string hint = size_hint(object, scale);
+  if (!hint.empty()) warn(fmt::format("{}: {}", object.spec, hint));
 }
 
 }  // namespace

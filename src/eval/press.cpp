@@ -223,11 +223,13 @@ Result<Placement> press(const LoadedObject& object, const Placement& placement,
     if (!candidate) continue;
     if (const auto solved = search.solve_under(search.searched(*candidate))) return *solved;
   }
+  const std::string hint = size_hint(object, placement.scale);
   return Error{
       ErrorCode::bad_value,
       fmt::format("--press {}: under this recording's palms, {} can be no deeper than {:.4f} "
-                  "m at the median",
-                  depth_m, object.spec, std::max(0.0, search.best_depth()))};
+                  "m at the median{}{}",
+                  depth_m, object.spec, std::max(0.0, search.best_depth()),
+                  hint.empty() ? "" : "; it is ", hint)};
 }
 
 }  // namespace nade

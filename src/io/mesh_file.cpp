@@ -1,12 +1,9 @@
 #include "nade/io/mesh_file.h"
 
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <assimp/Importer.hpp>
 #include <cctype>
 #include <exception>
 #include <filesystem>
@@ -16,7 +13,6 @@
 #include <string_view>
 
 #include "mesh_formats.h"
-#include "obj_text.h"
 #include "whole_file.h"
 
 namespace nade {
@@ -67,69 +63,17 @@ std::optional<Error> refuse_early(const std::string& path) {
   return std::nullopt;
 }
 
-/// The first corner beyond its mesh's vertices, before anything follows it.
-std::optional<Error> check_indices(const aiScene& scene, const std::string& path) {
-  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
-    const aiMesh& mesh = *scene.mMeshes[m];
-    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-      const aiFace& face = mesh.mFaces[f];
-      for (unsigned k = 0; k < face.mNumIndices; ++k) {
-        if (face.mIndices[k] < mesh.mNumVertices) continue;
-        return refuse(ErrorCode::bad_value, path,
-                      fmt::format("mesh {}: face {}: expected vertices below {}, found {}", m, f,
-                                  mesh.mNumVertices, face.mIndices[k]));
-      }
-    }
-  }
-  return std::nullopt;
-}
-
-TriangleSoup soup_of(const aiScene& scene) {
-  TriangleSoup soup;
-  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
-    const aiMesh& mesh = *scene.mMeshes[m];
-    const auto first = static_cast<std::uint32_t>(soup.vertices.size());
-    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-      const aiVector3D& v = mesh.mVertices[i];
-      soup.vertices.emplace_back(v.x, v.y, v.z);
-    }
-    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-      const aiFace& face = mesh.mFaces[f];
-      if (face.mNumIndices != 3) continue;
-      soup.triangles.push_back(
-          {first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
-    }
-  }
-  return soup;
-}
-
-Result<TriangleSoup> read_obj(const std::string& path) {
-  Assimp::Importer importer;
-  if (const Status status = io::read_as_plain_obj(importer, path); !status) return status.error();
-  const aiScene* scene = importer.ReadFile(path, 0);
-  if (scene == nullptr || scene->mRootNode == nullptr) {
-    return refuse(
-        ErrorCode::bad_format, path,
-        "expected a mesh, found what cannot be read: " + one_line(importer.GetErrorString()));
-  }
-  if (std::optional<Error> error = check_indices(*scene, path)) return *error;
-  const auto has_polygons = [](const aiScene& all) {
-    return std::any_of(all.mMeshes, all.mMeshes + all.mNumMeshes, [](const aiMesh* mesh) {
-      return (mesh->mPrimitiveTypes & aiPrimitiveType_POLYGON) != 0;
-    });
-  };
-  if (has_polygons(*scene)) scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
-  if (scene == nullptr) {
-    return refuse(ErrorCode::bad_format, path,
-                  "cannot be cut into triangles: " + one_line(importer.GetErrorString()));
-  }
-  return soup_of(*scene);
-}
-
 Result<TriangleSoup> read_plain(const std::string& path, std::string_view ending) {
   const Result<std::string> content = io::read_whole(path);
   if (!content) return content.error();
   const io::MeshText text{path, *content};
+  // A byte order mark, or a character of two bytes.
+  const bool wide = content->starts_with("\xFF\xFE") || content->starts_with("\xFE\xFF") ||
+                    content->substr(0, 2).find('\0') != std::string::npos;
+  if (wide && ending != ".stl") {
+    return refuse(ErrorCode::bad_format, path, "expected text in UTF-8, found UTF-16");
+  }
+  if (ending == ".obj") return io::read_obj(text);
   if (ending == ".off") return io::read_off(text);
   return ending == ".ply" ? io::read_ply(text) : io::read_stl(text);
 }
@@ -137,7 +81,7 @@ Result<TriangleSoup> read_plain(const std::string& path, std::string_view ending
 Result<MeshFile> parse(const std::string& path) {
   const std::string ending = ending_of(path);
   if (ending == ".glb" || ending == ".gltf") return io::read_gltf(path);
-  Result<TriangleSoup> soup = ending == ".obj" ? read_obj(path) : read_plain(path, ending);
+  Result<TriangleSoup> soup = read_plain(path, ending);
   if (!soup.ok()) return soup.error();
   return MeshFile{std::move(*soup), {}};
 }

@@ -18,6 +18,7 @@ struct MeshText {
   std::string_view content;
 };
 
+[[nodiscard]] Result<TriangleSoup> read_obj(const MeshText& file);
 [[nodiscard]] Result<TriangleSoup> read_off(const MeshText& file);
 [[nodiscard]] Result<TriangleSoup> read_ply(const MeshText& file);
 [[nodiscard]] Result<TriangleSoup> read_stl(const MeshText& file);

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "byte_source.h"
 #include "nade/mesh.h"
 #include "nade/status.h"
 
@@ -16,7 +17,9 @@ namespace nade::io {
 /// Goes through a text word by word and knows the line it is on.
 class WordReader {
  public:
-  WordReader(const std::string& path, std::string_view text) : path_(path), text_(text) {}
+  WordReader(const std::string& path, std::string_view text) : path_(path), text_(text) {
+    if (text.starts_with(kByteOrderMark)) at_ = kByteOrderMark.size();
+  }
 
   /// The next word, on whatever line; empty at the end. A '#' hides the rest of its line.
   std::string_view word() {
@@ -26,14 +29,15 @@ class WordReader {
   /// The next word of this line; empty where the line ends.
   std::string_view word_of_line() {
     while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
-    if (at_ < text_.size() && (text_[at_] == '\n' || text_[at_] == '#')) return {};
+    if (at_ < text_.size() && (ends_line(text_[at_]) || text_[at_] == '#')) return {};
     return take();
   }
   void skip_line() {
-    while (at_ < text_.size() && text_[at_] != '\n') ++at_;
+    while (at_ < text_.size() && !ends_line(text_[at_])) ++at_;
   }
 
   [[nodiscard]] std::size_t offset() const { return at_; }
+  [[nodiscard]] std::size_t line() const { return line_; }
   [[nodiscard]] Error error(ErrorCode code, const std::string& what) const {
     return {code, fmt::format("{}: line {}: {}", path_, line_, what)};
   }
@@ -47,12 +51,14 @@ class WordReader {
   }
 
  private:
-  static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+  static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+  /// "\r\n" counts as one end.
+  static bool ends_line(char c) { return c == '\n' || c == '\r'; }
   void skip_space() {
     for (; at_ < text_.size(); ++at_) {
       if (text_[at_] == '#') skip_line();
-      if (at_ < text_.size() && text_[at_] == '\n') {
-        ++line_;
+      if (at_ < text_.size() && ends_line(text_[at_])) {
+        if (text_[at_] == '\r' || at_ == 0 || text_[at_ - 1] != '\r') ++line_;
       } else if (at_ >= text_.size() || !is_blank(text_[at_])) {
         return;
       }
@@ -60,7 +66,7 @@ class WordReader {
   }
   std::string_view take() {
     const std::size_t begin = at_;
-    while (at_ < text_.size() && !is_blank(text_[at_]) && text_[at_] != '\n') ++at_;
+    while (at_ < text_.size() && !is_blank(text_[at_]) && !ends_line(text_[at_])) ++at_;
     return text_.substr(begin, at_ - begin);
   }
 
@@ -78,8 +84,16 @@ template <class Number>
   return code == std::errc{} && end == word.data() + word.size();
 }
 
-/// Adds a polygon as triangles: a fan, but for a quadrilateral with an inward corner, which is
-/// cut there. Fewer than three corners add nothing. All corners must be vertices of `soup`.
-void add_polygon(TriangleSoup& soup, std::span<const std::uint32_t> corners);
+/// `text` in small letters.
+[[nodiscard]] std::string lower(std::string_view text);
+
+/// What is said of a polygon that `add_polygon` does not take.
+inline constexpr std::string_view kTooWinding =
+    "expected a polygon that can be cut into triangles, found one too large and too winding";
+
+/// Adds a polygon as triangles, cut where it has inward corners. Fewer than three corners add
+/// nothing; one that crosses itself is cut somehow. All corners must be vertices of `soup`. False
+/// where the polygon is too large and too winding to be cut in reasonable time.
+[[nodiscard]] bool add_polygon(TriangleSoup& soup, std::span<const std::uint32_t> corners);
 
 }  // namespace nade::io

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -78,7 +79,12 @@ class PlainObj {
         statements_(file.content.substr(
             file.content.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0)) {}
 
-  Result<std::string> run() {
+  struct Read {
+    std::string plain;
+    TriangleSoup soup;
+  };
+
+  Result<Read> run() {
     plain_.reserve(file_.content.size());
     while (statements_.next()) {
       const std::string_view keyword = statements_.words()[0];
@@ -86,6 +92,7 @@ class PlainObj {
       if (keyword == "v") {
         ++vertices_;
         status = add_numbers({3, 6});
+        soup_.vertices.emplace_back(position_.cast<float>());
       } else if (keyword == "vn") {
         status = add_numbers({3, 3});
       } else if (keyword == "vt") {
@@ -99,10 +106,15 @@ class PlainObj {
       if (!status) return status.error();
     }
     if (greatest_ > vertices_) return beyond(greatest_, greatest_line_);
-    return std::move(plain_);
+    if (const Status status = cut_faces(); !status) return status.error();
+    return Read{std::move(plain_), std::move(soup_)};
   }
 
  private:
+  struct Face {
+    std::size_t end;  ///< in `corners_`
+    std::size_t line;
+  };
   struct Count {
     std::size_t least;
     std::size_t most;
@@ -144,6 +156,8 @@ class PlainObj {
         return wrong(statements_.line(), "v: expected a weight other than 0, found 0");
       }
       if (i <= kept) add_number(words[i]);
+      if (i <= 3) position_[static_cast<Eigen::Index>(i) - 1] = number;
+      if (i == 4 && found == 4) position_ /= number;
     }
     plain_ += '\n';
     return ok_status();
@@ -174,6 +188,8 @@ class PlainObj {
         }
         if (part > 0) continue;
         if (index < -vertices_) return beyond(index, statements_.line());
+        const std::int64_t corner = index > 0 ? index - 1 : vertices_ + index;
+        corners_.push_back(static_cast<std::uint32_t>(std::min<std::int64_t>(corner, kMost)));
         // A face may stand before its vertices.
         if (index <= greatest_) continue;
         greatest_ = index;
@@ -181,7 +197,18 @@ class PlainObj {
       }
       if (!rest.empty()) return bad_corner(words[i]);
     }
+    faces_.push_back({corners_.size(), statements_.line()});
     add_words();
+    return ok_status();
+  }
+
+  [[nodiscard]] Status cut_faces() {
+    std::size_t first = 0;
+    for (const Face& face : faces_) {
+      const std::span<const std::uint32_t> corners(corners_.data() + first, face.end - first);
+      if (!add_polygon(soup_, corners)) return wrong(face.line, std::string(kTooWinding));
+      first = face.end;
+    }
     return ok_status();
   }
 
@@ -199,19 +226,26 @@ class PlainObj {
   MeshText file_;
   Statements statements_;
   std::string plain_;
+  static constexpr std::int64_t kMost = 0xFFFFFFFF;
+  TriangleSoup soup_;
+  Vec3 position_ = Vec3::Zero();        ///< of the last statement
+  std::vector<std::uint32_t> corners_;  ///< of all faces
+  std::vector<Face> faces_;
   std::int64_t vertices_ = 0;
   std::int64_t greatest_ = 0;  ///< vertex of a face
   std::size_t greatest_line_ = 0;
 };
 
-/// Has one file's content in memory.
+/// Has one file's content in memory, and opens only what lies below its folder.
 class OneInMemory : public Assimp::DefaultIOSystem {
  public:
   OneInMemory(std::string path, std::string content)
       : path_(std::move(path)), content_(std::move(content)) {}
 
   Assimp::IOStream* Open(const char* file, const char* mode) override {
-    if (file != path_) return DefaultIOSystem::Open(file, mode);
+    if (file != path_) {
+      return is_below_folder_of(path_, file) ? DefaultIOSystem::Open(file, mode) : nullptr;
+    }
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(content_.data());
     return new Assimp::MemoryIOStream(bytes, content_.size());
   }
@@ -223,12 +257,18 @@ class OneInMemory : public Assimp::DefaultIOSystem {
 
 }  // namespace
 
+Result<TriangleSoup> read_obj(const MeshText& file) {
+  Result<PlainObj::Read> read = PlainObj(file).run();
+  if (!read) return read.error();
+  return std::move(read->soup);
+}
+
 Status read_as_plain_obj(Assimp::Importer& importer, const std::string& path) {
   const Result<std::string> content = read_whole(path);
   if (!content) return content.error();
-  Result<std::string> plain = PlainObj({path, *content}).run();
-  if (!plain) return plain.error();
-  importer.SetIOHandler(new OneInMemory(path, std::move(*plain)));  // which it deletes
+  Result<PlainObj::Read> read = PlainObj({path, *content}).run();
+  if (!read) return read.error();
+  importer.SetIOHandler(new OneInMemory(path, std::move(read->plain)));  // which it deletes
   return ok_status();
 }
 

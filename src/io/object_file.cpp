@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -268,6 +269,35 @@ std::string object_name(const std::string& spec) {
   const std::string file = spec.substr(0, end);
   if (!has_mesh_ending(file)) return spec;
   return std::filesystem::path(file).filename().string() + spec.substr(end);
+}
+
+std::string size_hint(const LoadedObject& object, double scale) {
+  // What a hand strokes is seldom larger or smaller, in metres.
+  constexpr double kSmallest = 0.01;
+  constexpr double kLargest = 5.0;
+  if (!object.soup) return {};
+  Eigen::AlignedBox3f bounds;
+  for (const Eigen::Vector3f& vertex : object.soup->vertices) bounds.extend(vertex);
+  const double size_m = scale * static_cast<double>(bounds.diagonal().norm());
+  const auto fits = [](double size) { return size >= kSmallest && size <= kLargest; };
+  if (fits(size_m)) return {};
+  struct Unit {
+    double scale;
+    const char* when;
+  };
+  constexpr std::array<Unit, 6> kUnits{{{0.001, "if its file is in millimetres"},
+                                        {0.01, "if in centimetres"},
+                                        {0.0254, "if in inches"},
+                                        {0.3048, "if in feet"},
+                                        {100.0, "if it was made a hundred times too small"},
+                                        {1000.0, "if it was made a thousand times too small"}}};
+  std::string scales;
+  for (const Unit& unit : kUnits) {
+    if (!fits(unit.scale * size_m)) continue;
+    scales += fmt::format("{}{:.3g} {}", scales.empty() ? "; --scale " : ", ", scale * unit.scale,
+                          unit.when);
+  }
+  return fmt::format("{:.3g} m large{}", size_m, scales);
 }
 
 std::string with_placing(const std::string& json_object, const ObjectPlacing& placing) {

@@ -1,3 +1,5 @@
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "mesh_formats.h"
@@ -5,35 +7,30 @@
 
 namespace nade::io {
 
-void add_polygon(TriangleSoup& soup, std::span<const std::uint32_t> corners) {
-  if (corners.size() < 3) return;
-  const auto normal = [&](std::size_t i, std::size_t j, std::size_t k) {
-    const Vec3 a = soup.vertices[corners[i]].cast<double>();
-    const Vec3 b = soup.vertices[corners[j]].cast<double>();
-    const Vec3 c = soup.vertices[corners[k]].cast<double>();
-    return Vec3((b - a).cross(c - a));
-  };
-  std::size_t first = 0;
-  if (corners.size() == 4 && normal(0, 1, 2).dot(normal(0, 2, 3)) < 0.0) first = 1;
-  const auto at = [&](std::size_t i) { return corners[(first + i) % corners.size()]; };
-  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-    soup.triangles.push_back({at(0), at(i), at(i + 1)});
-  }
-}
-
 Result<TriangleSoup> read_off(const MeshText& file) {
   WordReader words(file.path, file.content);
   const std::string_view header = words.word();
-  if (!header.ends_with("OFF") || header.find_first_not_of("STCNOF") != std::string_view::npos) {
+  // The first count may stick to the header.
+  const std::string name = lower(header.substr(0, header.find_first_of("0123456789")));
+  if (!name.ends_with("off") || name.find_first_not_of("stcnof") != std::string::npos) {
     return words.expected("'OFF'", header);
   }
+  const auto count_from = [&words](std::string_view word, std::size_t& count) {
+    return parse_word(word, count)
+               ? std::nullopt
+               : std::optional<Error>(words.expected("the number of vertices, faces, edges", word));
+  };
   std::size_t vertices = 0;
   std::size_t faces = 0;
   std::size_t edges = 0;
-  for (std::size_t* count : {&vertices, &faces, &edges}) {
-    const std::string_view word = words.word();
-    if (!parse_word(word, *count))
-      return words.expected("the number of vertices, faces, edges", word);
+  const std::string_view stuck = header.substr(name.size());
+  if (auto error = count_from(stuck.empty() ? words.word() : stuck, vertices)) return *error;
+  const std::size_t line = words.line();
+  if (auto error = count_from(words.word(), faces)) return *error;
+  // Some programs leave out the number of edges.
+  const std::string_view last = words.line() == line ? words.word_of_line() : words.word();
+  if (!last.empty()) {
+    if (auto error = count_from(last, edges)) return *error;
   }
   TriangleSoup soup;
   for (std::size_t i = 0; i < vertices; ++i) {
@@ -71,7 +68,9 @@ Result<TriangleSoup> read_off(const MeshText& file) {
       corners.push_back(vertex);
     }
     words.skip_line();  // colours
-    add_polygon(soup, corners);
+    if (!add_polygon(soup, corners)) {
+      return words.error(ErrorCode::bad_value, fmt::format("face {}: {}", i, kTooWinding));
+    }
   }
   if (const std::string_view word = words.word(); !word.empty()) {
     return words.expected("the end of the file", word);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <optional>
 #include <vector>
@@ -104,8 +105,13 @@ class PlyReader {
       }
     }
     words_.skip_line();
-    at_ = std::min(words_.offset() + 1, file_.content.size());
-    return check_coordinates();
+    at_ = words_.offset();
+    // The first data byte may look like a line feed where lines end in a carriage return alone.
+    const bool two = file_.content.substr(at_).starts_with("\r\n") &&
+                     (file_.content.starts_with("ply\r\n") || !file_.content.starts_with("ply\r"));
+    at_ = std::min(at_ + (two ? 2 : 1), file_.content.size());
+    if (std::optional<Error> error = check_coordinates()) return error;
+    return check_faces();
   }
 
   [[nodiscard]] std::optional<Error> check_coordinates() const {
@@ -120,6 +126,32 @@ class PlyReader {
                      fmt::format("{}: expected the properties x, y and z of a vertex, found no {}",
                                  file_.path, axis)};
       }
+    }
+    return std::nullopt;
+  }
+
+  static bool is_list_of_corners(const Property& property) {
+    return property.count_type &&
+           (property.name == "vertex_indices" || property.name == "vertex_index");
+  }
+
+  [[nodiscard]] std::optional<Error> check_faces() const {
+    for (const Element& element : elements_) {
+      if (element.count == 0) continue;
+      if (element.properties.empty()) {
+        return Error{ErrorCode::bad_format,
+                     fmt::format("{}: element {}: expected properties, found none", file_.path,
+                                 element.name.substr(0, kLongestName))};
+      }
+      const bool has_corners = element.name == "face" || element.name == "tristrips";
+      if (!has_corners ||
+          std::any_of(element.properties.begin(), element.properties.end(), is_list_of_corners)) {
+        continue;
+      }
+      return Error{
+          ErrorCode::bad_format,
+          fmt::format("{}: element {}: expected a list vertex_indices, found only '{}'", file_.path,
+                      element.name, element.properties[0].name.substr(0, kLongestName))};
     }
     return std::nullopt;
   }
@@ -167,26 +199,54 @@ class PlyReader {
         if (property.name == "z") position.z() = *value;
         continue;
       }
-      const std::optional<double> count = read(*property.count_type);
-      if (!count || !(*count >= 0.0)) return cut_off(element, row);
-      corners_.clear();
-      const bool is_face = element.name == "face" &&
-                           (property.name == "vertex_indices" || property.name == "vertex_index");
-      for (double i = 0.0; i < *count; ++i) {
-        const std::optional<double> value = read(property.type);
-        if (!value) return cut_off(element, row);
-        if (!is_face) continue;
-        if (!(*value >= 0.0 && *value < static_cast<double>(soup_.vertices.size()))) {
-          return Error{ErrorCode::bad_value,
-                       fmt::format("{}: face {}: expected vertices below {}, found {}", file_.path,
-                                   row, soup_.vertices.size(), *value)};
-        }
-        corners_.push_back(static_cast<std::uint32_t>(*value));
-      }
-      add_polygon(soup_, corners_);
+      if (std::optional<Error> error = read_list(element, row, property)) return error;
     }
     if (element.name == "vertex") soup_.vertices.emplace_back(position.cast<float>());
     return std::nullopt;
+  }
+
+  std::optional<Error> read_list(const Element& element, std::size_t row,
+                                 const Property& property) {
+    const std::optional<double> count = read(*property.count_type);
+    if (!count || !(*count >= 0.0) || *count != std::floor(*count)) return cut_off(element, row);
+    const bool strip = element.name == "tristrips";
+    const bool kept = (strip || element.name == "face") && is_list_of_corners(property);
+    corners_.clear();
+    for (double i = 0.0; i < *count; ++i) {
+      const std::optional<double> value = read(property.type);
+      if (!value) return cut_off(element, row);
+      if (!kept) continue;
+      if (strip && *value == -1.0) {
+        add_strip();
+        continue;
+      }
+      const bool known = *value >= 0.0 && *value < static_cast<double>(soup_.vertices.size()) &&
+                         *value == std::floor(*value);
+      if (!known) {
+        return bad_face(row, fmt::format("expected vertices below {}, found {}",
+                                         soup_.vertices.size(), *value));
+      }
+      corners_.push_back(static_cast<std::uint32_t>(*value));
+    }
+    if (strip) {
+      add_strip();
+    } else if (!add_polygon(soup_, corners_)) {
+      return bad_face(row, kTooWinding);
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] Error bad_face(std::size_t row, std::string_view what) const {
+    return {ErrorCode::bad_value, fmt::format("{}: face {}: {}", file_.path, row, what)};
+  }
+
+  /// Every second triangle of a strip is wound the other way.
+  void add_strip() {
+    for (std::size_t i = 0; i + 2 < corners_.size(); ++i) {
+      const std::size_t turned = i % 2;
+      soup_.triangles.push_back({corners_[i], corners_[i + 1 + turned], corners_[i + 2 - turned]});
+    }
+    corners_.clear();
   }
 
   /// Nothing where the file ends or, in a text, has no number.
@@ -236,6 +296,7 @@ class PlyReader {
     return Error{ErrorCode::bad_format, fmt::format("{}: {}", file_.path, what)};
   }
 
+  static constexpr std::size_t kLongestName = 40;
   const MeshText& file_;
   WordReader words_;
   Encoding encoding_ = Encoding::ascii;

@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <array>
 #include <cstring>
+#include <optional>
+#include <string>
 
 #include "mesh_formats.h"
 #include "mesh_words.h"
@@ -9,6 +12,7 @@ namespace {
 
 constexpr std::size_t kHeaderBytes = 84;
 constexpr std::size_t kTriangleBytes = 50;
+constexpr std::uint32_t kUnknownCount = 0xFFFFFFFF;
 
 void add_triangle(TriangleSoup& soup, const std::array<Eigen::Vector3f, 3>& corners) {
   const auto first = static_cast<std::uint32_t>(soup.vertices.size());
@@ -32,42 +36,87 @@ TriangleSoup read_binary(std::string_view content, std::size_t count) {
   return soup;
 }
 
-Result<TriangleSoup> read_ascii(const MeshText& file) {
-  WordReader words(file.path, file.content);
-  TriangleSoup soup;
-  std::array<Eigen::Vector3f, 3> corners;
-  std::size_t found = 0;
-  bool open = false;
-  while (true) {
-    const std::string_view word = words.word();
-    if (word == "solid") {
-      open = true;
-      words.skip_line();
-    } else if (word == "endsolid") {
-      open = false;
-      words.skip_line();
-    } else if (word == "vertex") {
-      Vec3 position;
-      for (double& coordinate : position) {
-        const std::string_view number = words.word();
-        if (!parse_word(number, coordinate)) return words.expected("a coordinate", number);
+class TextReader {
+ public:
+  explicit TextReader(const MeshText& file) : words_(file.path, file.content) {}
+
+  Result<TriangleSoup> run() {
+    while (true) {
+      const std::string_view found = words_.word();
+      std::string word = lower(found);
+      if (word == "end") word += lower(words_.word_of_line());
+      if (word == "solid") {
+        skip_name();
+      } else if (word == "endsolid" && !in_facet_) {
+        words_.skip_line();
+      } else if (word == "facet") {
+        if (in_facet_) return words_.expected("'endfacet'", found);
+        in_facet_ = true;
+      } else if (word == "normal") {
+        for (int i = 0; i < 3; ++i) words_.word_of_line();  // the corners tell it too
+      } else if (word == "vertex") {
+        if (std::optional<Error> error = read_vertex()) return *error;
+      } else if (word == "endfacet") {
+        if (std::optional<Error> error = end_facet()) return *error;
+      } else if (word.empty() && !in_facet_ && found_ == 0) {
+        return std::move(soup_);  // "endsolid" is often left out
+      } else if (word != "outer" && word != "loop" && word != "endloop") {
+        return words_.expected("'facet', 'vertex' or 'endsolid'", found);
       }
-      if (found < 3) corners[found] = position.cast<float>();
-      ++found;
-    } else if (word == "endfacet") {
-      if (found != 3)
-        return words.error(ErrorCode::bad_format,
-                           fmt::format("expected 3 vertices in a facet, found {}", found));
-      add_triangle(soup, corners);
-      found = 0;
-    } else if (word == "facet" || word == "outer" || word == "endloop") {
-      words.skip_line();
-    } else if (word.empty() && !open) {
-      return soup;
-    } else {
-      return words.expected("'facet', 'vertex' or 'endsolid'", word);
     }
   }
+
+ private:
+  /// A solid's name, which a facet may follow on the same line.
+  void skip_name() {
+    std::string before;
+    while (true) {
+      const std::string_view word = words_.word_of_line();
+      if (word.empty()) break;
+      if (before == "facet" && lower(word) == "normal") {
+        in_facet_ = true;
+        for (int i = 0; i < 3; ++i) words_.word_of_line();
+        return;
+      }
+      before = lower(word);
+    }
+    words_.skip_line();
+  }
+
+  std::optional<Error> read_vertex() {
+    Vec3 position;
+    for (double& coordinate : position) {
+      const std::string_view number = words_.word();
+      if (!parse_word(number, coordinate)) return words_.expected("a coordinate", number);
+    }
+    if (found_ < 3) corners_[found_] = position.cast<float>();
+    ++found_;
+    return std::nullopt;
+  }
+
+  std::optional<Error> end_facet() {
+    if (found_ != 3) {
+      return words_.error(ErrorCode::bad_format,
+                          fmt::format("expected 3 vertices in a facet, found {}", found_));
+    }
+    add_triangle(soup_, corners_);
+    found_ = 0;
+    in_facet_ = false;
+    return std::nullopt;
+  }
+
+  WordReader words_;
+  TriangleSoup soup_;
+  std::array<Eigen::Vector3f, 3> corners_;
+  std::size_t found_ = 0;
+  bool in_facet_ = false;
+};
+
+/// Whether a file begins as a text does.
+bool begins_solid(std::string_view content) {
+  if (content.starts_with(kByteOrderMark)) content.remove_prefix(kByteOrderMark.size());
+  const std::size_t start = content.find_first_not_of(" \t\r\n");
+  return start != std::string_view::npos && lower(content.substr(start, 5)) == "solid";
 }
 
 }  // namespace
@@ -78,8 +127,12 @@ Result<TriangleSoup> read_stl(const MeshText& file) {
   if (content.size() >= kHeaderBytes) std::memcpy(&count, content.data() + 80, sizeof count);
   const std::size_t whole = kHeaderBytes + kTriangleBytes * std::size_t{count};
   if (content.size() == whole) return read_binary(content, count);
-  if (content.starts_with("solid") && content.find("facet") != std::string_view::npos) {
-    return read_ascii(file);
+  const bool text = begins_solid(content);
+  if (text && lower(content).find("facet") != std::string::npos) return TextReader(file).run();
+  // What is written as it comes has no count yet.
+  const std::size_t behind = content.size() - std::min(content.size(), kHeaderBytes);
+  if ((count == 0 || count == kUnknownCount) && behind > 0 && behind % kTriangleBytes == 0) {
+    return read_binary(content, behind / kTriangleBytes);
   }
   // Some programs write more behind the triangles, but that is no triangles.
   if (content.size() > whole && count > 0) {
@@ -89,12 +142,11 @@ Result<TriangleSoup> read_stl(const MeshText& file) {
                  fmt::format("{}: expected {} triangles, as its header says, found {}", file.path,
                              count, count + more / kTriangleBytes)};
   }
-  if (content.starts_with("solid") && content.find("endsolid") != std::string_view::npos) {
-    return TriangleSoup{};
-  }
+  if (text && lower(content).find("endsolid") != std::string::npos) return TriangleSoup{};
   return Error{ErrorCode::bad_format,
-               fmt::format("{}: expected {} bytes for {} triangles, found {}", file.path, whole,
-                           count, content.size())};
+               fmt::format("{}: expected 'solid', or {} bytes for the {} triangles of its header, "
+                           "found {} bytes",
+                           file.path, whole, count, content.size())};
 }
 
 }  // namespace nade::io

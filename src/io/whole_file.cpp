@@ -22,4 +22,15 @@ Result<std::string> read_whole(const std::string& path) {
   return bytes;
 }
 
+bool is_below_folder_of(const std::string& path, const std::string& named) {
+  namespace fs = std::filesystem;
+  std::error_code failure;
+  const fs::path folder = fs::weakly_canonical(fs::absolute(path).parent_path(), failure);
+  if (failure) return false;
+  const fs::path file = fs::weakly_canonical(fs::absolute(named), failure);
+  if (failure) return false;
+  const fs::path from_folder = file.lexically_relative(folder);
+  return !from_folder.empty() && *from_folder.begin() != "..";
+}
+
 }  // namespace nade::io

@@ -61,6 +61,11 @@ struct ObjectPlacing {
   std::optional<std::int64_t> animation_start_ns{};
 };
 
+/// What is odd about a mesh's size beside a hand, and which scales would mend it: "269 m large;
+/// --scale 0.001 if its file is in millimetres". Empty where it is 1 cm to 5 m large, at that
+/// scale.
+[[nodiscard]] std::string size_hint(const LoadedObject& object, double scale);
+
 /// `json_object` with the keys "object" (its `object_name`), "at", "turn", "scale" and, where there
 /// is one, "animation_start" set; an empty text counts as {}. Its text has to be a JSON object.
 [[nodiscard]] std::string with_placing(const std::string& json_object,
