@@ -303,8 +303,10 @@ TEST_F(MeshFiles, SaysWhatIsWrong) {
   const TriangleSoup box = test::box_mesh({1, 1, 1});
   EXPECT_EQ(message(write("short.off", off_text(box).substr(0, 60))),
             "short.off: line 8: expected a coordinate of vertex 4 of 8, found the end of the file");
-  EXPECT_EQ(message(write("short.stl", stl_binary(box).substr(0, 300))),
-            "short.stl: expected 684 bytes for 12 triangles, found 300");
+  EXPECT_EQ(
+      message(write("short.stl", stl_binary(box).substr(0, 300))),
+      "short.stl: expected 'solid', or 684 bytes for the 12 triangles of its header, found 300 "
+      "bytes");
   EXPECT_EQ(message(write("words.glb", "{\n  \"asset\": oh")),
             "words.glb: not a readable glTF file: line 2, column 12: expected valid JSON");
   const std::string glb = glb_binary(box, plain_nodes());

@@ -85,8 +85,8 @@ class EarCutter {
   }
 
  private:
-  // Five seconds at most for a polygon of a million bytes.
-  static constexpr std::size_t kMostPerCorner = 8'000;
+  // Keeps a polygon of a million bytes to seconds.
+  static constexpr std::size_t kMostPerCorner = 2'000;
   static constexpr std::size_t kTidyEvery = 64;
 
   [[nodiscard]] double turn(std::size_t i) const {
