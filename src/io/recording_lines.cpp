@@ -10,11 +10,8 @@
 namespace nade::io {
 namespace {
 
-constexpr std::size_t kJointNumbers = 8;
 constexpr std::size_t kWebxrJoints = kJointCount - 1;  // all but the palm
 constexpr double kUnitTolerance = 1e-3;                // of the squared norm, as fault_of has it
-constexpr double kShortestRotation = 0.5;
-constexpr double kLongestRotation = 2.0;
 
 /// A value of the object, taken out of it, so that what is left are the unknown keys.
 std::optional<Json> take(Json& object, const char* key) {

@@ -14,11 +14,8 @@ namespace {
 
 constexpr double kNanosecondsPerMillisecond = 1e6;
 constexpr std::size_t kPoseNumbers = 7;
-constexpr std::size_t kJointNumbers = 8;
 constexpr std::size_t kFrameInputs = 1 + kPoseNumbers;  // after the time and the viewer's pose
 constexpr std::size_t kInputParts = 1 + kPoseNumbers;   // after the index and the target ray
-constexpr double kShortestRotation = 0.5;
-constexpr double kLongestRotation = 2.0;
 
 /// A pose from seven numbers of the array; none where one is not finite or the four of the
 /// rotation are none. They are rounded to three decimals, so the rotation is made unit again.
