@@ -181,7 +181,8 @@ TEST_F(RenderCommand, RefusesWithTwo) {
 }
 
 TEST_F(RenderCommand, DrawsOverNothingThatIsShown) {
-  make_stroke("in.png");
+  make_stroke("in.jsonl");
+  std::filesystem::rename(path("in.jsonl"), path("in.png"));
   const std::string before = read_file(path("in.png"));
   expect_misuse(render("in.png -o in.png"), "--output: expected another file than that of IN");
   expect_misuse(nade("figure in.png -o in.png"), "--output: expected another file");

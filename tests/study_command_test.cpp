@@ -83,8 +83,9 @@ TEST_F(StudyCommand, NumbersBeyondADoubleAreNamed) {
       std::string changed = plan;
       ASSERT_NE(changed.find(key), std::string::npos) << key;
       changed.replace(changed.find(key), key.size(), key.substr(0, key.find(':') + 1) + number);
-      write_file(path("large.json"), changed);
-      expect_failure(nade("study simulate large.json -d other"), "large.json: expected numbers");
+      test::write_file(path("large.json"), changed);
+      expect_failure(nade("study simulate large.json -d other"),
+                     "expected numbers that a double can hold");
     }
   }
 }

@@ -308,7 +308,7 @@ TEST(LineBreak, JapaneseBreaksBetweenPhrases) {
   EXPECT_EQ(broken_lines("片手の手のひらと指で、物体の表面をゆっくり撫でてください。", 9.0, bytes),
             (std::vector<std::string>{"片手の手のひらと", "指で、物体の", "表面をゆっくり",
                                       "撫でてください。"}));
-  EXPECT_EQ(broken_lines("少しお待ちください。", 6.0, bytes),
+  EXPECT_EQ(broken_lines("少し\u200Bお待ちください。", 6.0, bytes),
             (std::vector<std::string>{"少し", "お待ちくださ", "い。"}));
   EXPECT_EQ(broken_lines("準備ができたら「始める」を押す。", 8.0, bytes),
             (std::vector<std::string>{"準備ができたら", "「始める」を", "押す。"}));
