@@ -12,7 +12,7 @@ constexpr double kSlowest_m = 0.0002;
 constexpr double kPopFactor = 3.0;
 /// The rate at which second differences are told: they grow with the square of the time between
 /// frames.
-constexpr double kRate_Hz = 90.0;
+constexpr double kComparedRate = 90.0;
 
 }  // namespace
 
@@ -55,7 +55,7 @@ void MotionMeter::take_bend(const Frame& now, const Frame& before, const Frame& 
     corrected_square_ += drawn.squaredNorm();
   }
   const double step_s = 0.5 * (now.seconds - earlier.seconds);
-  const double scale = 1.0 / (kRate_Hz * kRate_Hz * step_s * step_s);
+  const double scale = 1.0 / (kComparedRate * kComparedRate * step_s * step_s);
   added_.add(added, scale, now.pressing);
   own_.add(own, scale, now.pressing);
 }

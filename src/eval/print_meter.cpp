@@ -9,7 +9,7 @@ namespace {
 /// Skin this near the surface is part of the handprint.
 constexpr double kPrint_m = 0.0015;
 /// Less pressed skin than this leaves no print to judge.
-constexpr double kSmallest_m2 = 10e-4;
+constexpr double kSmallestPrint = 10e-4;
 constexpr double kHeelPressed = 0.5;
 
 /// Of the pressed skin.
@@ -52,7 +52,7 @@ void PrintMeter::take_print(const PrintFrame& frame) {
     height_m3 += skin_.area_m2[i] * std::max(0.0, frame.corrected_m[i]);
     if (skin_.region[i] == SkinRegion::heel) heel.add(skin_.area_m2[i], frame.corrected_m[i]);
   }
-  if (palmar.pressed_m2 >= kSmallest_m2) {
+  if (palmar.pressed_m2 >= kSmallestPrint) {
     share_.add(palmar.touching_m2 / palmar.pressed_m2);
     hover_mm_.add(1e3 * height_m3 / palmar.pressed_m2);
   }
