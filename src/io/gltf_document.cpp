@@ -293,7 +293,7 @@ class DocumentReader {
     }
     const auto uri = buffer.find("uri");
     std::string bytes;
-    if (uri != buffer.end() && uri->is_string() && *uri != "") {
+    if (uri != buffer.end() && uri->is_string() && !uri->get_ref<const std::string&>().empty()) {
       Result<Resource> resource = read_resource(path_, where, uri->get_ref<const std::string&>());
       if (!resource) return resource.error();
       if (!resource->file.empty() && ++uses_[resource->file] > kMostUses) {

@@ -10,6 +10,8 @@
 namespace nade::gltf {
 
 /// A .glb or .gltf file taken apart, with nothing of it left that we do not use.
+// Json moves as noexcept does, whatever its own checks might throw.
+// NOLINTNEXTLINE(bugprone-exception-escape)
 struct Document {
   io::Json json;                     ///< without pictures, extras, and what the buffers' uris were
   std::vector<std::string> buffers;  ///< each as long as the file says
