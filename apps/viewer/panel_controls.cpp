@@ -254,6 +254,8 @@ void draw_controls(UiKit& ui, Desk& desk, const Layout& layout) {
   ImGui::Begin("controls", nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav);
+  // All of it fits into a window of 720 points; a lower one scrolls.
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {kGap, 5.0F});
   object_section(ui, desk);
   method_section(ui, desk);
   shown_section(ui, desk);
@@ -263,6 +265,7 @@ void draw_controls(UiKit& ui, Desk& desk, const Layout& layout) {
   } else {
     mouse_hand_section(ui, desk);
   }
+  ImGui::PopStyleVar();
   ImGui::End();
 }
 
