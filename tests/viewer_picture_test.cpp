@@ -275,7 +275,7 @@ TEST_F(ViewerPictureTest, NothingOverlaps) {
   expect_tidy(driven.viewer().ui());
   const Widget* const lowest = driven.viewer().ui().find("hand:follows");
   ASSERT_NE(lowest, nullptr);
-  EXPECT_LE(lowest->bottom, kHeight);
+  EXPECT_LE(lowest->bottom, kHeight - 4);
 }
 
 /// With a recording to play.
