@@ -129,6 +129,7 @@ std::span<const double> SkinProbe::read_below(const HandPose& hand, const Object
                                               double limit_m) {
   pose_skin(*mesh_, hand, scale_, skin_, {});
   std::fill(distances_m_.begin(), distances_m_.end(), kNotMeasured);
+  if (least_distance(hand, object) >= limit_m) return distances_m_;
   for (const Cluster& cluster : clusters_) {
     const std::size_t middle = vertices_[cluster.first].index;
     complete(middle, object);
@@ -141,12 +142,15 @@ std::span<const double> SkinProbe::read_below(const HandPose& hand, const Object
   return distances_m_;
 }
 
-SkinReading SkinProbe::read(const HandPose& hand, const Object& object) {
-  SkinReading reading;
+double SkinProbe::least_distance(const HandPose& hand, const Object& object) {
   const Vec3& palm = hand[Joint::palm].position;
   const auto under_palm = object.closest_point(palm, kNotMeasured, palm_hint_);
-  if (!under_palm) return reading;
-  const double least = under_palm->signed_distance - reach_of(hand, scale_);
+  return under_palm ? under_palm->signed_distance - reach_of(hand, scale_) : kNotMeasured;
+}
+
+SkinReading SkinProbe::read(const HandPose& hand, const Object& object) {
+  SkinReading reading;
+  const double least = least_distance(hand, object);
   if (least > kTouch_m) {
     reading.lowest = least;
     return reading;

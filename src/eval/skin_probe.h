@@ -62,6 +62,8 @@ class SkinProbe {
     double distance_m;  ///< signed
   };
 
+  /// No skin of the hand lies lower; infinite where there is no object.
+  [[nodiscard]] double least_distance(const HandPose& hand, const Object& object);
   void make_clusters(const std::vector<std::uint8_t>& patches);
   [[nodiscard]] double measure(std::size_t slot, const Object& object, SkinReading& reading);
   void read_cluster(const MiddleReading& middle, const Object& object, SkinReading& reading);

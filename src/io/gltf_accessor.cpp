@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 
 namespace nade::gltf {
 namespace {
@@ -217,6 +218,48 @@ Result<std::vector<float>> read_floats(const AccessorRef& ref, int components) {
 
 Result<std::vector<std::uint32_t>> read_integers(const AccessorRef& ref, int components) {
   return read_numbers<std::uint32_t>(ref, components, load_whole, "expected unsigned integers");
+}
+
+std::size_t count_bone_sets(const tinygltf::Primitive& primitive) {
+  const auto has = [&](std::size_t set) {
+    const auto found = primitive.attributes.find(fmt::format("JOINTS_{}", set));
+    return found != primitive.attributes.end() && found->second >= 0;
+  };
+  std::size_t sets = 1;
+  while (has(sets)) ++sets;
+  return sets;
+}
+
+Result<BoneSet> read_bone_set(const tinygltf::Model& model, const std::string& path,
+                              const tinygltf::Primitive& primitive, std::size_t set,
+                              std::size_t vertices) {
+  // Some programs round weights to below 0; those count as 0.
+  constexpr float kLeastWeight = -0.01F;
+  constexpr float kGreatestWeight = 1e6F;
+  const std::string joints_name = fmt::format("JOINTS_{}", set);
+  const std::string weights_name = fmt::format("WEIGHTS_{}", set);
+  const auto accessor = [&](const std::string& name) -> AccessorRef {
+    const auto found = primitive.attributes.find(name);
+    return {model, path, name.c_str(), found == primitive.attributes.end() ? -1 : found->second};
+  };
+  auto joints = read_integers(accessor(joints_name), 4);
+  if (!joints) return joints.error();
+  auto weights = read_floats(accessor(weights_name), 4);
+  if (!weights) return weights.error();
+  if (joints->size() != 4 * vertices || weights->size() != 4 * vertices) {
+    return Error{ErrorCode::bad_format,
+                 fmt::format("{}: {} and {}: expected {} elements, one for each vertex", path,
+                             joints_name, weights_name, vertices)};
+  }
+  for (std::size_t i = 0; i < weights->size(); ++i) {
+    float& weight = (*weights)[i];
+    if (!(weight >= kLeastWeight && weight <= kGreatestWeight)) {
+      return Error{ErrorCode::bad_format,
+                   fmt::format("{}: {} of vertex {}: expected 0 to 1", path, weights_name, i / 4)};
+    }
+    weight = std::max(weight, 0.0F);
+  }
+  return BoneSet{std::move(*joints), std::move(*weights)};
 }
 
 }  // namespace nade::gltf

@@ -2,6 +2,7 @@
 
 #include <tiny_gltf.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -34,5 +35,20 @@ struct AccessorRef {
 /// As `read_floats`, for unsigned integers.
 [[nodiscard]] Result<std::vector<std::uint32_t>> read_integers(const AccessorRef& ref,
                                                                int components);
+
+/// Four of the bones of every vertex, vertex after vertex. No weight is below 0, and a bone that
+/// weighs nothing may be any.
+struct BoneSet {
+  std::vector<std::uint32_t> joints;  ///< of the skin, unchecked
+  std::vector<float> weights;
+};
+
+/// How many sets of JOINTS_n and WEIGHTS_n a primitive has: at least one, which may be missing.
+[[nodiscard]] std::size_t count_bone_sets(const tinygltf::Primitive& primitive);
+
+/// Reads JOINTS_`set` and WEIGHTS_`set`, one element for each of so many vertices.
+[[nodiscard]] Result<BoneSet> read_bone_set(const tinygltf::Model& model, const std::string& path,
+                                            const tinygltf::Primitive& primitive, std::size_t set,
+                                            std::size_t vertices);
 
 }  // namespace nade::gltf

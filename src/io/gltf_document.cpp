@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <initializer_list>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -78,29 +79,7 @@ constexpr std::size_t kMostMaterials = 10'000;
 constexpr std::size_t kBytesPerElement = 32;
 constexpr std::size_t kBytesPerMaterial = 256;
 
-/// Deeper than any real file, shallow enough to recurse through.
-constexpr int kDeepest = 64;
-
-bool is_nested_deeper(std::string_view text, int most) {
-  int depth = 0;
-  bool in_string = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (in_string) {
-      if (c == '\\') ++i;
-      in_string = c != '"';
-    } else if (c == '"') {
-      in_string = true;
-    } else if (c == '[' || c == '{') {
-      if (++depth > most) return true;
-    } else if (c == ']' || c == '}') {
-      --depth;
-    }
-  }
-  return false;
-}
-
-/// Without what is never read. Not deeper than `kDeepest`.
+/// Without what is never read. No deeper than `check_json_size` lets it be.
 void strip(Json& value) {
   if (value.is_object()) {
     value.erase("extras");
@@ -178,9 +157,9 @@ class DocumentReader {
   }
 
   [[nodiscard]] Status parse() {
-    if (is_nested_deeper(bytes_, kDeepest)) {
-      return wrong(fmt::format("expected values nested at most {} deep, found more", kDeepest));
-    }
+    // How many values there may be is said by what they stand for: `check_counts`.
+    const Status depth = io::check_json_size(bytes_, std::numeric_limits<std::size_t>::max());
+    if (!depth) return wrong(depth.error().message);
     try {
       document_.json = Json::parse(bytes_);
     } catch (const Json::parse_error& error) {

@@ -87,11 +87,6 @@ bool leads_out(const std::string& name) {
          std::find(path.begin(), path.end(), "..") != path.end();
 }
 
-bool is_below(const fs::path& folder, const fs::path& file) {
-  const auto [end, unlike] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
-  return end == folder.end() && unlike != file.end();
-}
-
 }  // namespace
 
 Result<Resource> read_resource(const std::string& path, std::string_view where,
@@ -109,12 +104,11 @@ Result<Resource> read_resource(const std::string& path, std::string_view where,
   if (name.find('\0') != std::string::npos || leads_out(name)) {
     return refuse(ErrorCode::bad_value, kOutside);
   }
+  const fs::path beside = fs::path(path).parent_path() / name;
+  if (!io::is_below_folder_of(path, beside.string())) return refuse(ErrorCode::bad_value, kOutside);
   std::error_code failure;
-  const fs::path beside = fs::path(path).parent_path();
-  const fs::path folder = fs::canonical(beside.empty() ? fs::path(".") : beside, failure);
-  const fs::path file = failure ? fs::path() : fs::canonical(folder / name, failure);
+  const fs::path file = fs::canonical(beside, failure);
   if (failure) return refuse(ErrorCode::not_found, "no such file");
-  if (!is_below(folder, file)) return refuse(ErrorCode::bad_value, kOutside);
   // A pipe or a device would never end.
   if (!fs::is_regular_file(file, failure)) return refuse(ErrorCode::unreadable, "cannot be read");
   Result<std::string> bytes = io::read_whole(file.string());

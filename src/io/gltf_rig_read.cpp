@@ -17,9 +17,6 @@ namespace {
 using Vec3f = Eigen::Vector3f;
 using Matrix = Eigen::Matrix4d;
 
-/// Weights are rounded to below 0 by some programs; they count as 0.
-constexpr float kLeastWeight = -0.01F;
-
 Error bad_file(const std::string& path, std::string_view problem) {
   return {ErrorCode::bad_format, fmt::format("{}: {}", path, problem)};
 }
@@ -254,8 +251,7 @@ class Reader {
   /// Four carriers of a vertex are in JOINTS_0 and WEIGHTS_0, the next four in JOINTS_1 and
   /// WEIGHTS_1, and so on.
   [[nodiscard]] Status read_carriers(const tinygltf::Primitive& primitive, Piece& piece) const {
-    std::size_t sets = 1;
-    while (attribute(primitive.attributes, fmt::format("JOINTS_{}", sets)) >= 0) ++sets;
+    const std::size_t sets = count_bone_sets(primitive);
     piece.carriers_each = 4 * sets;
     piece.carriers.resize(piece.carriers_each * piece.positions.size());
     for (std::size_t set = 0; set < sets; ++set) {
@@ -275,31 +271,18 @@ class Reader {
 
   [[nodiscard]] Status read_set(const tinygltf::Primitive& primitive, std::size_t set,
                                 Piece& piece) const {
-    const std::string joints_name = fmt::format("JOINTS_{}", set);
-    const std::string weights_name = fmt::format("WEIGHTS_{}", set);
-    const auto joints = read_integers(
-        {model_, path_, joints_name.c_str(), attribute(primitive.attributes, joints_name)}, 4);
-    if (!joints) return joints.error();
-    const auto weights = read_floats(
-        {model_, path_, weights_name.c_str(), attribute(primitive.attributes, weights_name)}, 4);
-    if (!weights) return weights.error();
     const std::size_t count = piece.positions.size();
-    if (joints->size() != 4 * count || weights->size() != 4 * count) {
-      return bad_file(path_, fmt::format("{} and {}: expected {} elements, one for each vertex",
-                                         joints_name, weights_name, count));
-    }
+    const Result<BoneSet> read = read_bone_set(model_, path_, primitive, set, count);
+    if (!read) return read.error();
     const std::size_t bones = std::min<std::size_t>(rig_.skins[*piece.skin].joints.size(), 65535);
     for (std::size_t i = 0; i < 4 * count; ++i) {
-      const float weight = (*weights)[i];
-      const std::uint32_t bone = (*joints)[i];
-      if (!(weight >= kLeastWeight && weight <= 1e6F)) {
-        return bad_file(path_,
-                        fmt::format("{} of vertex {}: expected 0 to 1", weights_name, i / 4));
-      }
-      if (weight <= 0.0F) continue;
+      const float weight = read->weights[i];
+      const std::uint32_t bone = read->joints[i];
+      if (weight == 0.0F) continue;
       if (bone >= bones) {
-        return bad_file(path_, fmt::format("{} of vertex {}: expected joints below {}, found {}",
-                                           joints_name, i / 4, bones, bone));
+        return bad_file(
+            path_, fmt::format("JOINTS_{} of vertex {}: expected joints below {}, found {}", set,
+                               i / 4, bones, bone));
       }
       piece.carriers[piece.carriers_each * (i / 4) + 4 * set + i % 4] = {
           static_cast<std::uint16_t>(bone), weight};

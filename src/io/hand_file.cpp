@@ -29,8 +29,6 @@ using JointMap = std::vector<std::optional<Joint>>;
 
 /// Inverse bind matrices may be off by this and count as unscaled.
 constexpr double kScaleNoise = 1e-3;
-/// Weights are rounded to below 0 by some programs; they count as 0.
-constexpr float kLeastWeight = -0.01F;
 /// Wrist to middle knuckle, metres: what a hand in metres can measure.
 constexpr double kShortestLength_m = 0.02;
 constexpr double kLongestLength_m = 0.3;
@@ -247,30 +245,18 @@ struct Share {
 /// Adds what JOINTS_`set` and WEIGHTS_`set` say to the shares of each vertex.
 Status read_shares(const PrimitiveSource& source, const JointMap& map, std::size_t set,
                    std::vector<std::vector<Share>>& shares) {
-  const std::string joints_name = fmt::format("JOINTS_{}", set);
-  const std::string weights_name = fmt::format("WEIGHTS_{}", set);
-  const auto joints = gltf::read_integers(source.accessor(joints_name.c_str()), 4);
-  if (!joints) return joints.error();
-  const auto weights = gltf::read_floats(source.accessor(weights_name.c_str()), 4);
-  if (!weights) return weights.error();
-  if (joints->size() != 4 * shares.size() || weights->size() != 4 * shares.size()) {
-    return bad_hand(source.path, fmt::format("{} and {}: expected {} elements, one for each vertex",
-                                             joints_name, weights_name, shares.size()));
-  }
-  for (std::size_t i = 0; i < joints->size(); ++i) {
-    const float weight = (*weights)[i];
-    const std::uint32_t joint = (*joints)[i];
-    if (!(weight >= kLeastWeight && weight <= 1e6F)) {
-      return bad_hand(source.path,
-                      fmt::format("{} of vertex {}: expected 0 to 1", weights_name, i / 4));
-    }
-    if (weight <= 0.0F) continue;
+  const Result<gltf::BoneSet> read =
+      gltf::read_bone_set(source.model, source.path, source.primitive, set, shares.size());
+  if (!read) return read.error();
+  for (std::size_t i = 0; i < read->joints.size(); ++i) {
+    const std::uint32_t joint = read->joints[i];
+    if (read->weights[i] == 0.0F) continue;
     if (joint >= map.size() || !map[joint]) {
-      return bad_hand(source.path, fmt::format("{} of vertex {}: joint {} of the skin is neither a "
-                                               "joint of the hand nor below one",
-                                               joints_name, i / 4, joint));
+      return bad_hand(source.path, fmt::format("JOINTS_{} of vertex {}: joint {} of the skin is "
+                                               "neither a joint of the hand nor below one",
+                                               set, i / 4, joint));
     }
-    shares[i / 4].push_back({static_cast<std::uint8_t>(index_of(*map[joint])), weight});
+    shares[i / 4].push_back({static_cast<std::uint8_t>(index_of(*map[joint])), read->weights[i]});
   }
   return ok_status();
 }
@@ -278,7 +264,8 @@ Status read_shares(const PrimitiveSource& source, const JointMap& map, std::size
 /// Of more than four bones the four that weigh most.
 Status read_weights(const PrimitiveSource& source, const JointMap& map, HandMesh& mesh) {
   std::vector<std::vector<Share>> all(mesh.vertices.size() - mesh.bones.size());
-  for (std::size_t set = 0; set == 0 || source.has(fmt::format("JOINTS_{}", set).c_str()); ++set) {
+  const std::size_t sets = gltf::count_bone_sets(source.primitive);
+  for (std::size_t set = 0; set < sets; ++set) {
     const Status status = read_shares(source, map, set, all);
     if (!status) return status;
   }

@@ -12,7 +12,6 @@ namespace {
 /// Deeper than any recording, shallow enough to recurse through.
 constexpr std::size_t kDeepest = 64;
 /// More than any frame or header has; parsed they take some hundred bytes each.
-constexpr std::size_t kMostValues = 1'000'000;
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
@@ -63,7 +62,7 @@ std::optional<std::string> with_nulls(std::string_view text) {
 
 }  // namespace
 
-Status check_json_size(std::string_view text) {
+Status check_json_size(std::string_view text, std::size_t most_values) {
   std::size_t depth = 0;
   std::size_t values = 1;
   bool in_string = false;
@@ -87,9 +86,9 @@ Status check_json_size(std::string_view text) {
       return Error{ErrorCode::bad_format,
                    fmt::format("expected values nested at most {} deep, found more", kDeepest)};
     }
-    if (values > kMostValues) {
+    if (values > most_values) {
       return Error{ErrorCode::bad_format,
-                   fmt::format("expected at most {} values in one, found more", kMostValues)};
+                   fmt::format("expected at most {} values in one, found more", most_values)};
     }
   }
   return ok_status();

@@ -17,9 +17,9 @@ using Json = nlohmann::json;
 /// prefixed with the file's name and the line ("column 41: expected valid JSON").
 [[nodiscard]] Result<Json> parse_json(std::string_view text);
 
-/// Refuses a text that is nested deeper than 64, or of more than a million values, before it is
-/// parsed. The error is without the file's name.
-[[nodiscard]] Status check_json_size(std::string_view text);
+/// Refuses a text that is nested deeper than 64, or of more values than said, before it is parsed.
+/// The error is without the file's name.
+[[nodiscard]] Status check_json_size(std::string_view text, std::size_t most_values = 1'000'000);
 
 /// Where the first number stands that is not finite as a double; none where there is none.
 [[nodiscard]] std::optional<std::size_t> find_not_finite(std::string_view text);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -13,6 +12,7 @@
 #include <string_view>
 
 #include "mesh_formats.h"
+#include "mesh_words.h"
 #include "whole_file.h"
 
 namespace nade {
@@ -102,10 +102,7 @@ Result<MeshFile> check(MeshFile file, const std::string& path) {
 }  // namespace
 
 std::string ending_of(const std::string& path) {
-  std::string ending = fs::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
+  return io::lower(fs::path(path).extension().string());
 }
 
 bool has_mesh_ending(const std::string& path) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cstdint>
 #include <span>
@@ -85,7 +87,12 @@ template <class Number>
 }
 
 /// `text` in small letters.
-[[nodiscard]] std::string lower(std::string_view text);
+[[nodiscard]] inline std::string lower(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return result;
+}
 
 /// What is said of a polygon that `add_polygon` does not take.
 inline constexpr std::string_view kTooWinding =

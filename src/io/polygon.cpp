@@ -1,7 +1,5 @@
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <string>
 #include <vector>
 
 #include "mesh_words.h"
@@ -119,13 +117,6 @@ class EarCutter {
 };
 
 }  // namespace
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return result;
-}
 
 bool add_polygon(TriangleSoup& soup, std::span<const std::uint32_t> corners) {
   if (corners.size() < 3) return true;

@@ -30,7 +30,7 @@ bool is_below_folder_of(const std::string& path, const std::string& named) {
   const fs::path file = fs::weakly_canonical(fs::absolute(named), failure);
   if (failure) return false;
   const fs::path from_folder = file.lexically_relative(folder);
-  return !from_folder.empty() && *from_folder.begin() != "..";
+  return !from_folder.empty() && from_folder != "." && *from_folder.begin() != "..";
 }
 
 }  // namespace nade::io
