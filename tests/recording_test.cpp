@@ -349,7 +349,7 @@ TEST_F(Recording, TheJointsOfWebXrAreTakenWithoutThePalm) {
   const HandPose& full = whole.frames[0].hands[1]->pose;
   EXPECT_EQ(hand[Joint::little_tip], full[Joint::little_tip]);
   EXPECT_EQ(hand[Joint::palm], palm_from_middle_metacarpal(full));
-  for (const std::size_t lost : {1, 7, 12, 17, 25}) {
+  for (const std::size_t lost : {1U, 7U, 12U, 17U, 25U}) {
     frame = frame_json(5);
     frame["right"]["joints"].erase(lost);
     EXPECT_EQ(error_of(frame), "right: joints: expected 26 joints, found 25") << lost;
