@@ -72,8 +72,8 @@ std::string_view name_of(HandStatus status) {
 }
 
 std::optional<Joint> joint_from_webxr_name(std::string_view name) {
-  const auto* found = std::find_if(kNames.begin(), kNames.end(),
-                                   [&](const JointNames& names) { return names.webxr == name; });
+  const auto found = std::find_if(kNames.begin(), kNames.end(),
+                                  [&](const JointNames& names) { return names.webxr == name; });
   if (found == kNames.end()) return std::nullopt;
   return joint_at(static_cast<std::size_t>(found - kNames.begin()));
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 // Based on: Baerentzen, Aanaes. Signed Distance Computation Using the Angle Weighted
@@ -59,8 +60,8 @@ double angle_of(double cross, double dot) {
                          0.1999355085, -0.3333314528, 1.0}) {
     sum = sum * s + c;
   }
-  const double acute = cross > along ? 0.5 * M_PI - sum * x : sum * x;
-  return dot < 0.0 ? M_PI - acute : acute;
+  const double acute = cross > along ? 0.5 * std::numbers::pi - sum * x : sum * x;
+  return dot < 0.0 ? std::numbers::pi - acute : acute;
 }
 
 }  // namespace
@@ -119,7 +120,7 @@ void MeshNormals::update(const WeldedMesh& mesh) noexcept {
     const Vector3d normal = length > 1e-100 ? Vector3d(area / length) : area.stableNormalized();
     const double at_a = angle_of(length, (b - a).dot(c - a));
     const double at_b = angle_of(length, (c - b).dot(a - b));
-    const std::array<double, 3> angles{at_a, at_b, std::max(0.0, M_PI - at_a - at_b)};
+    const std::array<double, 3> angles{at_a, at_b, std::max(0.0, std::numbers::pi - at_a - at_b)};
     for (std::size_t k = 0; k < 3; ++k) {
       const Vector3f weighted = (angles[k] * normal).cast<float>();
       vertex_pseudonormals_[corners[k]] += weighted;

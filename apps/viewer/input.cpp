@@ -14,7 +14,7 @@ constexpr std::array<std::string_view, kKeyCount> kNames{
 }  // namespace
 
 std::optional<Key> key_from_name(std::string_view name) {
-  const auto* const found = std::find(kNames.begin(), kNames.end(), name);
+  const auto found = std::find(kNames.begin(), kNames.end(), name);
   if (found == kNames.end()) return std::nullopt;
   return static_cast<Key>(found - kNames.begin());
 }

@@ -41,7 +41,7 @@ void hold_hand(Desk& desk, const Input& input) {
 
 void next_object(Desk& desk) {
   static constexpr std::array<const char*, 3> kSpecs{"plane", "sphere", "dog"};
-  const auto* const now = std::find(kSpecs.begin(), kSpecs.end(), desk.session.loaded().spec);
+  const auto now = std::find(kSpecs.begin(), kSpecs.end(), desk.session.loaded().spec);
   desk.show_object(now == kSpecs.end() || now + 1 == kSpecs.end() ? kSpecs.front() : *(now + 1));
 }
 
@@ -54,7 +54,7 @@ void next_method(Desk& desk) {
 }
 
 void change_speed(Playback& playback, int steps) {
-  const auto* const now = std::lower_bound(kSpeeds.begin(), kSpeeds.end(), playback.speed);
+  const auto now = std::lower_bound(kSpeeds.begin(), kSpeeds.end(), playback.speed);
   const auto at = std::clamp<std::ptrdiff_t>(now - kSpeeds.begin() + steps, 0,
                                              static_cast<std::ptrdiff_t>(kSpeeds.size()) - 1);
   playback.speed = kSpeeds[static_cast<std::size_t>(at)];

@@ -27,7 +27,7 @@ std::string as_time(double seconds) {
 void speed_button(UiKit& ui, Playback& playback) {
   if (ui.button("speed", fmt::format("{}×", playback.speed).c_str(), Lit::no, 52.0F,
                 "How fast it plays: the next speed  (, and . for slower and faster)")) {
-    const auto* const next = std::upper_bound(kSpeeds.begin(), kSpeeds.end(), playback.speed);
+    const auto next = std::upper_bound(kSpeeds.begin(), kSpeeds.end(), playback.speed);
     playback.speed = next == kSpeeds.end() ? kSpeeds.front() : *next;
   }
 }

@@ -23,7 +23,7 @@ Vec3 outward(double azimuth_rad, double elevation_rad) {
 }  // namespace
 
 std::optional<View> view_from_name(std::string_view name) {
-  const auto* const found = std::find(kViewNames.begin(), kViewNames.end(), name);
+  const auto found = std::find(kViewNames.begin(), kViewNames.end(), name);
   if (found == kViewNames.end()) return std::nullopt;
   return static_cast<View>(found - kViewNames.begin());
 }

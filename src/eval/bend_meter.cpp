@@ -51,7 +51,7 @@ double BendMeter::take_bend_added(const HandPose& tracked, const HandPose& corre
       added_deg_.add(added);
     }
   }
-  auto* const middle = added_deg.begin() + added_deg.size() / 2;
+  const auto middle = added_deg.begin() + added_deg.size() / 2;
   std::nth_element(added_deg.begin(), middle, added_deg.end());
   return *middle;
 }

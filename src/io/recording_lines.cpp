@@ -116,7 +116,7 @@ Result<std::array<std::optional<RecordedContact>, kPartCount>> contacts_of(Json&
 
 std::optional<HandStatus> status_from(const Json& value) {
   if (!value.is_string()) return std::nullopt;
-  const auto* const found =
+  const auto found =
       std::find(kStatusNames.begin(), kStatusNames.end(), value.get_ref<const std::string&>());
   if (found == kStatusNames.end()) return std::nullopt;
   return static_cast<HandStatus>(found - kStatusNames.begin());
