@@ -35,6 +35,10 @@ constexpr double kOtherLength = 0.02;
 
 constexpr double kLargestHand_m = 0.5;
 
+/// A hand that the paper's method would draw farther off is in something that is no object of a
+/// hand's, or placed absurdly.
+constexpr double kFarthestCorrection_m = 10.0;
+
 constexpr double kThinnestTip_m = 0.003;
 constexpr double kThickestTip_m = 0.015;
 constexpr double kSameRadius_m = 1e-4;
@@ -75,6 +79,16 @@ bool is_just_before(std::int64_t time_ns, std::int64_t last_ns) {
   return time_ns < last_ns && seconds(time_ns, last_ns) <= kLateClock_s;
 }
 
+/// Not where it is no number either.
+bool is_near(const HandPose& drawn, const HandPose& tracked) {
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    const Vec3 way = drawn.joints[i].position - tracked.joints[i].position;
+    if (!(way.norm() <= kFarthestCorrection_m)) return false;
+    if (!drawn.joints[i].rotation.coeffs().allFinite()) return false;
+  }
+  return true;
+}
+
 bool touches(const Contacts& contacts) {
   return std::any_of(contacts.begin(), contacts.end(),
                      [](const auto& contact) { return contact.has_value(); });
@@ -85,7 +99,7 @@ bool touches(const Contacts& contacts) {
 std::string_view name_of(Method method) { return kMethodNames[static_cast<std::size_t>(method)]; }
 
 std::optional<Method> method_from_name(std::string_view name) {
-  const auto* const found = std::find(kMethodNames.begin(), kMethodNames.end(), name);
+  const auto found = std::find(kMethodNames.begin(), kMethodNames.end(), name);
   if (found == kMethodNames.end()) return std::nullopt;
   return static_cast<Method>(found - kMethodNames.begin());
 }
@@ -184,6 +198,11 @@ void HandCorrector::correct_by_paper(const HandPose& tracked, const Object& obje
   const SeatedPalm seated = seat_palm(tracked, contacts[index_of(Part::palm)]);
   const LaidFingers laid = lay_fingers(tracked, seated.hand, object, options_.fingers, contacts);
 
+  if (!is_near(laid.hand, tracked)) {
+    contact_memory_ = {};
+    release(tracked, {}, time_ns);
+    return;
+  }
   result_.pose = laid.hand;
   result_.contacts = contacts;
   result_.ray_turn_rad = laid.ray_turn_rad;

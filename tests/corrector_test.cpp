@@ -462,5 +462,19 @@ TEST(Corrector, NoJointLeavesItsRangeOfMotion) {
   }
 }
 
+TEST(Corrector, AbsurdPlacesLeaveThePapersHandAsItIs) {
+  for (const double scale : {1e6, 1e12, 1e30}) {
+    const Object planet(test::kBall, {{Vec3(0.0, -0.15 * scale, 1.0), Quat::Identity()}, scale});
+    HandCorrector corrector(by_paper());
+    for (int i = 0; i < 20; ++i) {
+      const HandPose hand = pressed_hand(0.01 * i, 0.1 * i, {0.5 * scale * (i % 3), 0.0, 0.0});
+      const CorrectedHand& drawn = corrector.update(hand, planet, i * kFrame_ns);
+      ASSERT_TRUE(all_finite(drawn.pose) || !is_usable(hand));
+      if (!is_usable(hand)) continue;
+      EXPECT_LT(largest_motion(hand, drawn.pose), 10.1) << scale;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace nade
