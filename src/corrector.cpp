@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "nade/assert.h"
+#include "query_steps.h"
 #include "ramps.h"
 
 namespace nade {
@@ -185,8 +186,13 @@ void HandCorrector::correct(const HandPose& tracked, const Object& object,
   if (options_.method == Method::none) return;
   if (last_ && is_just_before(time_ns, last_->time_ns)) time_ns = last_->time_ns;
   start_frame(tracked, time_ns);
+  const detail::StepLimit limit(detail::kMostFrameSteps);
   if (options_.method == Method::paper) correct_by_paper(tracked, object, time_ns);
   if (options_.method == Method::nade) settle(tracked, object, time_ns);
+  if (!limit.is_used_up()) return;
+  // What was found before it was used up and what was not do not make a hand.
+  reset();
+  result_ = {tracked, HandStatus::free, {}, {}, {}};
 }
 
 void HandCorrector::correct_by_paper(const HandPose& tracked, const Object& object,

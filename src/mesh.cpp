@@ -6,6 +6,7 @@
 #include "mesh_normals.h"
 #include "mesh_topology.h"
 #include "nade/assert.h"
+#include "query_steps.h"
 #include "surface_query.h"
 #include "triangle_tree.h"
 
@@ -123,6 +124,8 @@ Vec3 shading_normal(const SlotTriangle& triangle, const Vec3& weights) {
 
 /// What float arithmetic on squares of squares still holds, metres.
 constexpr float kLargest = 1e6F;
+/// So many diagonals of the built mesh may a vertex go: far ones make boxes wide, and queries slow.
+constexpr float kRoom = 100.0F;
 
 /// A little more, so that a bound includes what lies on it.
 float round_up(double value) { return static_cast<float>(value * (1.0 + 1e-6)) + 1e-18F; }
@@ -136,6 +139,7 @@ struct MeshSurface::Impl {
   detail::MeshNormals normals;
   detail::TriangleTree tree;
   std::size_t soup_vertices = 0;
+  Eigen::AlignedBox3f room;  ///< where vertices may go
   std::uint64_t shape = new_shape();
   Vec3 centre = Vec3::Zero();
   double radius = 0.0;
@@ -178,7 +182,9 @@ struct MeshSurface::Impl {
       return around && around->dot(from - nearest) < 0.0;
     }
     const Eigen::Vector3f at = from.cast<float>();
-    return tree.winding({at.x(), at.y(), at.z()}) > 0.5F;
+    const detail::TreeWinding winding = tree.winding({at.x(), at.y(), at.z()});
+    detail::steps_left -= winding.steps;
+    return winding.number > 0.5F;
   }
 
   [[nodiscard]] SurfacePoint point_at(const Vec3& query, const Vec3& seen_from, std::uint32_t slot,
@@ -240,11 +246,15 @@ Result<std::unique_ptr<MeshSurface>> MeshSurface::build(const TriangleSoup& soup
   impl->topology = detail::orient(impl->mesh, impl->report);
   impl->normals.build(impl->mesh, impl->topology);
   impl->follow_vertices();
+  const Eigen::AlignedBox3f& bounds = impl->tree.bounds();
+  const Eigen::Vector3f reach = Eigen::Vector3f::Constant(kRoom * bounds.diagonal().norm());
+  impl->room = {(bounds.min() - reach).cwiseMax(-kLargest),
+                (bounds.max() + reach).cwiseMin(kLargest)};
   return std::unique_ptr<MeshSurface>(new MeshSurface(std::move(impl)));
 }
 
 std::optional<RayHit> MeshSurface::first_hit(const Ray& ray) const noexcept {
-  if (!is_query(ray)) return std::nullopt;
+  if (!is_query(ray) || detail::steps_left <= 0) return std::nullopt;
   // A far origin is brought near along the ray, where floats are fine enough.
   double skipped = 0.0;
   const double to_centre = (impl_->centre - ray.origin).dot(ray.direction);
@@ -265,6 +275,7 @@ std::optional<RayHit> MeshSurface::first_hit(const Ray& ray) const noexcept {
   }
   query.max_distance = round_up(std::min(ray.max_distance - skipped, 2.0 * kFar * impl_->radius));
   const detail::TreeHit hit = impl_->tree.first_hit(query);
+  detail::steps_left -= hit.steps;
   if (hit.slot == kNoSlot) return std::nullopt;
 
   const SlotTriangle triangle = impl_->tree.at(hit.slot);
@@ -285,7 +296,7 @@ std::optional<RayHit> MeshSurface::first_hit(const Ray& ray) const noexcept {
 
 std::optional<SurfacePoint> MeshSurface::closest_point(const Vec3& query, double max_distance,
                                                        SurfaceHint& hint) const noexcept {
-  if (!is_query(query, max_distance)) return std::nullopt;
+  if (!is_query(query, max_distance) || detail::steps_left <= 0) return std::nullopt;
   // From very far, look from a nearer point in the same direction.
   Vec3 seen_from = query;
   constexpr double kFar = 1e4;
@@ -304,21 +315,31 @@ std::optional<SurfacePoint> MeshSurface::closest_point(const Vec3& query, double
       std::min(max_distance + (query - seen_from).norm(), 4.0 * kFar * impl_->radius);
   const float rounded = round_up(bound);
   tree_query.bound_squared = rounded * rounded;
-  const std::uint32_t found = impl_->tree.closest(tree_query);
-  if (found == kNoSlot) return std::nullopt;
+  const detail::TreeNearest found = impl_->tree.closest(tree_query);
+  detail::steps_left -= found.steps;
+  if (found.slot == kNoSlot) return std::nullopt;
 
-  const SlotTriangle triangle = impl_->tree.at(found);
+  const SlotTriangle triangle = impl_->tree.at(found.slot);
   const TrianglePoint nearest = nearest_on(triangle.corners, query);
   if (!(length(query - nearest.point) <= max_distance)) return std::nullopt;
-  hint.element = found;
-  return impl_->point_at(query, seen_from, found, triangle, nearest);
+  hint.element = found.slot;
+  if (found.steps == detail::kMostSteps && impl_->topology.sign != detail::SignRule::winding) {
+    // It may not be the nearest, whose pseudonormal alone says on which side the query is: what
+    // is first on the way to it says so too.
+    constexpr double kBeyond = 1.0 + 1e-6;
+    const Vec3 way = nearest.point - query;
+    const auto hit = first_hit({query, way.stableNormalized(), kBeyond * length(way)});
+    if (hit)
+      return SurfacePoint{hit->point, hit->normal, (hit->from_inside ? -1 : 1) * hit->distance};
+  }
+  return impl_->point_at(query, seen_from, found.slot, triangle, nearest);
 }
 
 void MeshSurface::refit(std::span<const Eigen::Vector3f> vertices) noexcept {
   NADE_ASSERT(vertices.size() == impl_->soup_vertices);
   for (std::size_t i = 0; i < impl_->mesh.vertices.size(); ++i) {
     const Eigen::Vector3f& moved = vertices[impl_->mesh.source[i]];
-    if ((moved.array().abs() <= kLargest).all()) impl_->mesh.vertices[i] = moved;
+    if (impl_->room.contains(moved)) impl_->mesh.vertices[i] = moved;
   }
   impl_->follow_vertices();
   impl_->shape = new_shape();

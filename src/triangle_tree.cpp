@@ -138,8 +138,6 @@ void TriangleTree::set_shading(std::span<const Octahedral> normals,
 }
 
 void TriangleTree::set_dipoles() {
-  // How many radii away a part must be to count as a dipole.
-  constexpr double kFar = 2.5;
   constexpr float kNowhere = 1e9F;
   dipoles_.resize(nodes_.size());
   for (std::size_t n = nodes_.size(); n-- > 0;) {
@@ -171,7 +169,7 @@ void TriangleTree::set_dipoles() {
         out.centre[axis][i] = static_cast<float>(centre[axis]);
         out.vector_area[axis][i] = static_cast<float>(dipole.vector_area[axis]);
       }
-      out.near_squared[i] = static_cast<float>(kFar * kFar * radius_squared);
+      out.near_squared[i] = kDipoleFar * kDipoleFar * static_cast<float>(radius_squared);
     }
   }
 }

@@ -45,8 +45,8 @@ class TriangleTree {
   [[nodiscard]] TreeHit first_hit(const TreeRay& ray) const noexcept {
     return kernels_->first_hit(nodes_.data(), blocks_.data(), ray);
   }
-  /// The slot of the triangle nearest the point.
-  [[nodiscard]] std::uint32_t closest(const TreePoint& point) const noexcept {
+  /// The triangle nearest the point.
+  [[nodiscard]] TreeNearest closest(const TreePoint& point) const noexcept {
     return kernels_->closest(nodes_.data(), blocks_.data(), point);
   }
   /// Whether this could be a slot.
@@ -71,7 +71,7 @@ class TriangleTree {
   }
 
   /// Generalised winding number of the point (Jacobson et al. 2013), to about 0.02.
-  [[nodiscard]] float winding(const float (&point)[3]) const noexcept {
+  [[nodiscard]] TreeWinding winding(const float (&point)[3]) const noexcept {
     return kernels_->winding(nodes_.data(), blocks_.data(), dipoles_.data(), point);
   }
   [[nodiscard]] const Eigen::AlignedBox3f& bounds() const { return bounds_; }

@@ -151,16 +151,19 @@ inline void hit_block(const TriangleBlock* blocks, std::uint32_t index, const Ra
   if (bits8(hits) == 0) return;
   const Float8 distances = select8(hits, distance, all8(kInfinity));
   const float nearest = lowest8(distances);
-  best = {index * kTreeWidth + lane_of(nearest, distances), nearest};
+  best.slot = index * kTreeWidth + lane_of(nearest, distances);
+  best.distance = nearest;
 }
 
 TreeHit first_hit_kernel(const TreeNode* nodes, const TriangleBlock* blocks,
                          const TreeRay& query) noexcept {
   const Ray8 ray(query);
-  TreeHit best{kNoSlot, query.max_distance};
+  TreeHit best{kNoSlot, query.max_distance, 0};
   Stack stack;
   std::uint32_t current = 0;
-  while (true) {
+  std::uint32_t steps = 0;
+  while (current != kNoChild && steps < kMostSteps) {
+    ++steps;
     if ((current & kLeafBit) != 0) {
       hit_block(blocks, current & ~kLeafBit, ray, best);
     } else {
@@ -172,8 +175,9 @@ TreeHit first_hit_kernel(const TreeNode* nodes, const TriangleBlock* blocks,
       }
     }
     current = stack.pop(best.distance);
-    if (current == kNoChild) return best;
   }
+  best.steps = steps;
+  return best;
 }
 
 /// Squared distance from `p`, given from one end, to a segment.
@@ -183,13 +187,13 @@ inline Float8 segment_squared(const Vec8& p, const Vec8& along) {
   return dot8(d, d);
 }
 
-struct Nearest {
+struct BestYet {
   float squared;
   std::uint32_t slot;
 };
 
 inline void nearest_in_block(const TriangleBlock* blocks, std::uint32_t index, const Vec8& point,
-                             Nearest& best) {
+                             BestYet& best) {
   const TriangleBlock& block = blocks[index];
   const Vec8 a = load_vec8(block.a);
   const Vec8 b = load_vec8(block.b);
@@ -222,14 +226,16 @@ inline Float8 box_squared(const TreeNode& node, const Vec8& point) {
   return fma8(x, x, fma8(y, y, z * z));
 }
 
-std::uint32_t closest_kernel(const TreeNode* nodes, const TriangleBlock* blocks,
-                             const TreePoint& query) noexcept {
+TreeNearest closest_kernel(const TreeNode* nodes, const TriangleBlock* blocks,
+                           const TreePoint& query) noexcept {
   const Vec8 point = all_vec8(query.point);
-  Nearest best{query.bound_squared, kNoSlot};
+  BestYet best{query.bound_squared, kNoSlot};
   if (query.hint_block != kNoSlot) nearest_in_block(blocks, query.hint_block, point, best);
   Stack stack;
   std::uint32_t current = 0;
-  while (true) {
+  std::uint32_t steps = 0;
+  while (current != kNoChild && steps < kMostSteps) {
+    ++steps;
     if ((current & kLeafBit) != 0) {
       const std::uint32_t block = current & ~kLeafBit;
       if (block != query.hint_block) nearest_in_block(blocks, block, point, best);
@@ -243,8 +249,8 @@ std::uint32_t closest_kernel(const TreeNode* nodes, const TriangleBlock* blocks,
       }
     }
     current = stack.pop(best.squared);
-    if (current == kNoChild) return best.slot;
   }
+  return {best.slot, steps};
 }
 
 /// atan2 to 1e-4; 0 at the origin.
@@ -284,32 +290,40 @@ inline float half_solid_angle(const TriangleBlock& block, const Vec8& point) {
   return sum8(atan2_8(volume, flat));
 }
 
-float winding_kernel(const TreeNode* nodes, const TriangleBlock* blocks, const DipoleNode* dipoles,
-                     const float (&query)[3]) noexcept {
+TreeWinding winding_kernel(const TreeNode* nodes, const TriangleBlock* blocks,
+                           const DipoleNode* dipoles, const float (&query)[3]) noexcept {
   const Vec8 point = all_vec8(query);
   Float8 far_sum = all8(0.0F);
   float near_sum = 0.0F;
-  std::uint32_t stack[kStackSize];
-  std::uint32_t size = 0;
-  stack[size++] = 0;
-  while (size != 0) {
-    const std::uint32_t current = stack[--size];
+  // Level by level: where there is no more room, what is left to look into is small everywhere.
+  std::uint32_t queue[kMostWindingSteps];
+  std::uint32_t queued = 0;
+  queue[queued++] = 0;
+  std::uint32_t steps = 0;
+  while (steps < queued) {
+    const std::uint32_t current = queue[steps++];
     if ((current & kLeafBit) != 0) {
       near_sum += half_solid_angle(blocks[current & ~kLeafBit], point);
       continue;
     }
     const DipoleNode& dipole = dipoles[current];
     const Vec8 to = load_vec8(dipole.centre) - point;
-    const Float8 squared = dot8(to, to);
-    const Float8 is_far = less8(load8(dipole.near_squared), squared);
+    Float8 squared = dot8(to, to);
+    const Float8 near_squared = load8(dipole.near_squared);
+    Float8 is_far = less8(near_squared, squared);
+    if (queued + kTreeWidth > kMostWindingSteps) {
+      // All as dipoles, and the point no farther within one than at its radius.
+      squared = max8(squared, near_squared * all8(1.0F / (kDipoleFar * kDipoleFar)));
+      is_far = less_equal8(squared, squared);
+    }
     const Float8 share = dot8(load_vec8(dipole.vector_area), to) / (squared * sqrt8(squared));
     far_sum = far_sum + select8(is_far, share, all8(0.0F));
     for (unsigned lanes = ~bits8(is_far) & 0xffU; lanes != 0; lanes &= lanes - 1) {
-      stack[size++] = nodes[current].child[__builtin_ctz(lanes)];
+      queue[queued++] = nodes[current].child[__builtin_ctz(lanes)];
     }
   }
   constexpr float kPi = 3.14159265F;
-  return near_sum / (2.0F * kPi) + sum8(far_sum) / (4.0F * kPi);
+  return {near_sum / (2.0F * kPi) + sum8(far_sum) / (4.0F * kPi), steps};
 }
 
 constexpr TreeKernels kKernels{first_hit_kernel, closest_kernel, winding_kernel};

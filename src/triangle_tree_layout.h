@@ -18,6 +18,15 @@ inline constexpr std::uint32_t kNoSlot = 0xffffffff;
 /// Deepest path from the root; the build sees to it that it holds.
 inline constexpr std::uint32_t kTreeDepth = 64;
 
+/// How many radii away a part must be to count as a dipole.
+inline constexpr float kDipoleFar = 2.5F;
+
+/// Nodes and blocks that a query looks at, whatever the mesh: it keeps a frame's time where
+/// triangles go through each other by the thousand. A surface takes a few dozen.
+inline constexpr std::uint32_t kMostSteps = 512;
+/// The same for `winding`, which looks at everything around: up to some hundred of a good mesh.
+inline constexpr std::uint32_t kMostWindingSteps = 1024;
+
 /// Up to eight child boxes, coordinate by coordinate. An unused child's box is inside out, so no
 /// query enters it. Children stand behind their parent.
 struct alignas(64) TreeNode {
@@ -48,6 +57,17 @@ struct alignas(64) DipoleNode {
 struct TreeHit {
   std::uint32_t slot = kNoSlot;
   float distance = 0.0F;
+  std::uint32_t steps = 0;
+};
+
+struct TreeNearest {
+  std::uint32_t slot = kNoSlot;
+  std::uint32_t steps = 0;  ///< `kMostSteps`: of those looked at it is the nearest
+};
+
+struct TreeWinding {
+  float number = 0.0F;
+  std::uint32_t steps = 0;
 };
 
 struct TreeRay {
@@ -65,9 +85,9 @@ struct TreePoint {
 /// The queries, compiled for one instruction set. All start at node 0.
 struct TreeKernels {
   TreeHit (*first_hit)(const TreeNode*, const TriangleBlock*, const TreeRay&) noexcept;
-  std::uint32_t (*closest)(const TreeNode*, const TriangleBlock*, const TreePoint&) noexcept;
-  float (*winding)(const TreeNode*, const TriangleBlock*, const DipoleNode*,
-                   const float (&point)[3]) noexcept;
+  TreeNearest (*closest)(const TreeNode*, const TriangleBlock*, const TreePoint&) noexcept;
+  TreeWinding (*winding)(const TreeNode*, const TriangleBlock*, const DipoleNode*,
+                         const float (&point)[3]) noexcept;
 };
 [[nodiscard]] const TreeKernels& tree_kernels_baseline() noexcept;
 [[nodiscard]] const TreeKernels& tree_kernels_avx2() noexcept;

@@ -369,6 +369,23 @@ TEST(Mesh, RefitLeavesWhatIsNotFinite) {
   EXPECT_GT(signed_distance(*mesh, {0.0, 0.2, 0.0}), 0.0);
 }
 
+TEST(Mesh, RefitLeavesWhatIsThrownFarOff) {
+  const TriangleSoup soup = test::icosphere(0.15F, 3);
+  const auto mesh = build(soup);
+  for (const float far_m : {100.0F, 1e5F, 1e30F}) {
+    TriangleSoup thrown = soup;
+    for (std::size_t i = 0; i < thrown.vertices.size(); i += 9) thrown.vertices[i].x() = far_m;
+    mesh->refit(thrown.vertices);
+    EXPECT_NEAR(signed_distance(*mesh, {0.0, 0.1, 0.0}), -0.05, 0.002);
+    EXPECT_NEAR(signed_distance(*mesh, {0.0, 0.2, 0.0}), 0.05, 0.002);
+  }
+  // What walks away as a whole is followed.
+  TriangleSoup away = soup;
+  for (Eigen::Vector3f& vertex : away.vertices) vertex.x() += 20.0F;
+  mesh->refit(away.vertices);
+  EXPECT_NEAR(signed_distance(*mesh, {20.0, 0.2, 0.0}), 0.05, 0.002);
+}
+
 TEST(Mesh, QueriesDoNotAllocate) {
   for (const TriangleSoup& soup : {test::bumpy_sphere(0.12F, 60, 60), broken_mesh()}) {
     const auto mesh = build(soup);

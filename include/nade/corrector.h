@@ -77,15 +77,17 @@ class HandCorrector {
   /// The hand to draw for a tracked hand at `time_ns` (any origin), valid until the next call and
   /// not to be given back as `tracked`. Never allocates or throws; the pose is finite if the
   /// tracked one is. Method `paper` leaves a hand as it is that it would draw more than 10 m off.
-  /// Rotations from half to twice the unit length are made unit first (`with_unit_rotations`). A
-  /// pose that cannot be used even so comes back as it is, status `untracked`, and `fault` says
-  /// why. Where no object is near, give `nothing()`: a hand that is not passed is missing, and
-  /// jumps when an object comes. Frames in which it is missing are simply not passed: one that
-  /// presses on when it is back, within a second, goes on from where it was drawn. Time that goes
-  /// back, or the other hand, starts anew; but back by 25 ms at the most, as where a clock is read
-  /// late or a frame's display time foretold anew, counts as the same time. Once a frame: a second
-  /// call for the same time counts as a frame of a millisecond. Times may be whole milliseconds,
-  /// and off by a few.
+  /// Where an object's triangles go through each other by the thousand, so that a frame's queries
+  /// would look at more than 300,000 nodes and leaves of the meshes, the tracked hand comes back,
+  /// status `free`; no mesh that is like a surface takes so many. Rotations from half to twice the
+  /// unit length are made unit first (`with_unit_rotations`). A pose that cannot be used even so
+  /// comes back as it is, status `untracked`, and `fault` says why. Where no object is near, give
+  /// `nothing()`: a hand that is not passed is missing, and jumps when an object comes. Frames in
+  /// which it is missing are simply not passed: one that presses on when it is back, within a
+  /// second, goes on from where it was drawn. Time that goes back, or the other hand, starts anew;
+  /// but back by 25 ms at the most, as where a clock is read late or a frame's display time
+  /// foretold anew, counts as the same time. Once a frame: a second call for the same time counts
+  /// as a frame of a millisecond. Times may be whole milliseconds, and off by a few.
   const CorrectedHand& update(const HandPose& tracked, const Object& object,
                               std::int64_t time_ns) noexcept;
 

@@ -48,6 +48,13 @@ struct MeshReport {
 /// A triangle mesh as a solid. Queries are thread-safe and do not allocate. Normals run smoothly
 /// over the surface and break where faces meet at more than 40 degrees.
 ///
+/// What a query costs is bounded, whatever the mesh: it looks at no more than 512 nodes and leaves
+/// of eight triangles, and 1024 more to tell inside from outside where a mesh is not clean. A
+/// surface takes a dozen or two. Where that is not enough, as in thousands of triangles that go
+/// through each other, or from the middle of a ball of a million, the answer is a point of the
+/// surface that may not be the very nearest, and on a clean mesh the side is still right.
+/// `HandCorrector` bounds the whole frame besides.
+///
 /// When it is built, vertices of equal position become one; neighbours are wound alike and parts
 /// outward, but a closed part wound inward within another stays: it is a cavity.
 class MeshSurface final : public Surface {
@@ -63,7 +70,8 @@ class MeshSurface final : public Surface {
       const Vec3& query, double max_distance, SurfaceHint& hint) const noexcept override;
 
   /// Follows a deforming object: new positions for the vertices of the soup it was built from,
-  /// same order and number, all finite (one that is not stays where it was). What is a crease,
+  /// same order and number, all finite and within 100 diagonals of the built mesh's box from it
+  /// (one that is not stays where it was: far ones would make every query slow). What is a crease,
   /// a hole or a part, and which side is out, is not decided anew: a mirror image is inside out.
   /// Does not allocate. Not while another thread queries.
   void refit(std::span<const Eigen::Vector3f> vertices) noexcept;
