@@ -217,6 +217,19 @@ TEST(GltfMesh, MoreThanFourBonesCarryAVertex) {
   expect_refused(file, "WEIGHTS_1 of vertex 0: expected 0 to 1");
 }
 
+TEST(GltfMesh, MirroredBonesTurnTheirTriangles) {
+  GltfFile file("nade_mirrored_bones");
+  file.gltf["nodes"] = Json::parse(R"([{"mesh":0,"skin":0},{"scale":[-1,1,1]}])");
+  file.gltf["scenes"][0]["nodes"] = {0, 1};
+  file.gltf["skins"] = {{{"joints", {1}}}};
+  Json& attributes = primitive_of(file)["attributes"];
+  attributes["JOINTS_0"] = file.add_bytes(std::vector<std::uint8_t>(12, 0), 5121, "VEC4", 3);
+  attributes["WEIGHTS_0"] = file.add({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4");
+  EXPECT_EQ(loaded(file).soup.triangles, (Triangles{{0, 2, 1}}));
+  file.gltf["nodes"][1]["scale"] = {-1, -1, 1};
+  EXPECT_EQ(loaded(file).soup.triangles, (Triangles{{0, 1, 2}}));
+}
+
 TEST(GltfMesh, DataUrisOfEveryType) {
   // The corners 0 0 0, 1 0 0 and 0 0 -1, and the three indices.
   const std::string base64 = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAAAAAIC/AAABAAIA";

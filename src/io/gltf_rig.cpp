@@ -36,6 +36,17 @@ void morph(const Piece& piece, const Node& node, std::span<Vec3f> vertices) noex
   }
 }
 
+/// What carries a vertex of a skin.
+Matrix34f blended_bones(const Rig& rig, const Piece& piece, std::size_t vertex) noexcept {
+  const std::vector<Matrix34f>& bones = rig.skins[*piece.skin].bones;
+  const Carrier* const carriers = piece.carriers.data() + piece.carriers_each * vertex;
+  Matrix34f blend = carriers[0].weight * bones[carriers[0].bone];
+  for (std::size_t k = 1; k < piece.carriers_each; ++k) {
+    if (carriers[k].weight != 0.0F) blend += carriers[k].weight * bones[carriers[k].bone];
+  }
+  return blend;
+}
+
 void carry(const Rig& rig, const Piece& piece, std::span<Vec3f> vertices) noexcept {
   if (!piece.skin) {
     const Matrix& world = rig.worlds[piece.node];
@@ -45,15 +56,20 @@ void carry(const Rig& rig, const Piece& piece, std::span<Vec3f> vertices) noexce
     }
     return;
   }
-  const std::vector<Matrix34f>& bones = rig.skins[*piece.skin].bones;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const Carrier* const carriers = piece.carriers.data() + piece.carriers_each * i;
-    Matrix34f blend = carriers[0].weight * bones[carriers[0].bone];
-    for (std::size_t k = 1; k < piece.carriers_each; ++k) {
-      if (carriers[k].weight != 0.0F) blend += carriers[k].weight * bones[carriers[k].bone];
-    }
+    const Matrix34f blend = blended_bones(rig, piece, i);
     vertices[i] = Vec3f(blend.leftCols<3>() * vertices[i] + blend.col(3));
   }
+}
+
+/// Whether a triangle is seen from the other side where its node, or its bones, put it.
+bool is_mirrored(const Rig& rig, const Piece& piece, const std::array<std::uint32_t, 3>& corners) {
+  if (!piece.skin) return rig.worlds[piece.node].topLeftCorner<3, 3>().determinant() < 0.0;
+  float sum = 0.0F;
+  for (const std::uint32_t corner : corners) {
+    sum += blended_bones(rig, piece, corner).leftCols<3>().determinant();
+  }
+  return sum < 0.0F;
 }
 
 }  // namespace
@@ -66,10 +82,9 @@ std::size_t Rig::vertex_count() const {
 
 std::vector<std::array<std::uint32_t, 3>> triangles_of(const Rig& rig, const Piece& piece) {
   auto triangles = piece.triangles;
-  const bool mirrored = rig.worlds[piece.node].topLeftCorner<3, 3>().determinant() < 0.0;
-  // Bones have taken the place of a skin's node.
-  if (piece.skin || !mirrored) return triangles;
-  for (auto& corners : triangles) std::swap(corners[1], corners[2]);
+  for (auto& corners : triangles) {
+    if (is_mirrored(rig, piece, corners)) std::swap(corners[1], corners[2]);
+  }
   return triangles;
 }
 

@@ -71,7 +71,8 @@ struct Rig {
   [[nodiscard]] std::size_t vertex_count() const;
 };
 
-/// A piece's triangles as they are seen: a mirroring node turns them inside out. Of a posed rig.
+/// A piece's triangles as they are seen: a mirroring node or bone turns them inside out. Of a posed
+/// rig.
 [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> triangles_of(const Rig& rig,
                                                                      const Piece& piece);
 
