@@ -186,5 +186,21 @@ TEST(Assets, EnvironmentNamesTheFolder) {
   ::unsetenv("NADE_ASSETS");
 }
 
+TEST(ObjectFile, SheetThatLooksDownIsTold) {
+  const std::string corners = "v 0 0 0\nv 0.2 0 0\nv 0.2 0 0.2\nv 0 0 0.2\n";
+  const auto down = load_object(temp_file("down.obj", corners + "f 1 2 3\nf 1 3 4\n"));
+  ASSERT_TRUE(down.ok()) << down.error().message;
+  const std::string told = facing_hint(*down, Quat::Identity());
+  EXPECT_NE(told.find("front looks down"), std::string::npos) << told;
+  EXPECT_NE(told.find("--turn 1,0,0,0 "), std::string::npos) << told;
+  const Quat over(0.0, 1.0, 0.0, 0.0);
+  EXPECT_EQ(facing_hint(*down, over), "");
+  const auto up = load_object(temp_file("up.obj", corners + "f 3 2 1\nf 4 3 1\n"));
+  ASSERT_TRUE(up.ok()) << up.error().message;
+  EXPECT_EQ(facing_hint(*up, Quat::Identity()), "");
+  EXPECT_NE(facing_hint(*up, over), "");
+  EXPECT_EQ(facing_hint(*load_object("plane"), over), "");
+}
+
 }  // namespace
 }  // namespace nade

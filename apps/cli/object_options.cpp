@@ -18,9 +18,11 @@ namespace {
   throw CLI::ValidationError(option, fmt::format("expected {}, found '{}'", expected, text));
 }
 
-void warn_of_size(const LoadedObject& object, double scale) {
-  const std::string hint = size_hint(object, scale);
-  if (!hint.empty()) warn(fmt::format("{}: {}", object.spec, hint));
+void warn_of_placement(const LoadedObject& object, const Placement& placement) {
+  for (const std::string& hint :
+       {size_hint(object, placement.scale), facing_hint(object, placement.pose.rotation)}) {
+    if (!hint.empty()) warn(fmt::format("{}: {}", object.spec, hint));
+  }
 }
 
 }  // namespace
@@ -95,7 +97,7 @@ Result<PlacedObject> load_placed(const ObjectOptions& options,
   if (options.at) placement.pose.position = *options.at;
   if (options.turn) placement.pose.rotation = *options.turn;
   if (options.scale) placement.scale = *options.scale;
-  warn_of_size(*loaded, placement.scale);
+  warn_of_placement(*loaded, placement);
   PlacedObject placed{std::move(loaded).value(), placement};
   if (same) placed.animation_start_ns = recorded->animation_start_ns;
   return placed;

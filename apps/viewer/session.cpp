@@ -51,6 +51,8 @@ Status Session::show_object(const std::string& spec, const std::optional<Placeme
     }
   }
   for (const std::string& warning : loaded_->warnings) notices_.push_back(warning);
+  const std::string facing = facing_hint(*loaded_, placement_.pose.rotation);
+  if (!facing.empty()) notices_.push_back(loaded_->spec + ": " + facing);
   put_mouse_hand();
   restart();
   return ok_status();

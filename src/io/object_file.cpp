@@ -300,6 +300,21 @@ std::string size_hint(const LoadedObject& object, double scale) {
   return fmt::format("{:.3g} m large{}", size_m, scales);
 }
 
+std::string facing_hint(const LoadedObject& object, const Quat& turn) {
+  const auto* const mesh = dynamic_cast<const MeshSurface*>(object.surface.get());
+  if (mesh == nullptr || mesh->report().solid != MeshSolid::sheet) return {};
+  constexpr double kDown = -0.1;
+  const Vec3 front = turn * object.place().value().pose.rotation * Vec3::UnitY();
+  if (front.y() > kDown) return {};
+  const Quat over = Quat(0.0, 1.0, 0.0, 0.0) * turn;
+  // Not "-0".
+  const Eigen::Vector4d numbers = over.coeffs().array() + 0.0;
+  return fmt::format(
+      "the sheet's front looks down, so a hand over it counts as behind it and is drawn below; "
+      "--turn {:.4g},{:.4g},{:.4g},{:.4g} turns it over, or turn its faces over in a modeller",
+      numbers.x(), numbers.y(), numbers.z(), numbers.w());
+}
+
 std::string with_placing(const std::string& json_object, const ObjectPlacing& placing) {
   auto header = json_object.empty() ? nlohmann::ordered_json::object()
                                     : nlohmann::ordered_json::parse(json_object, nullptr, false);

@@ -66,6 +66,10 @@ struct ObjectPlacing {
 /// scale.
 [[nodiscard]] std::string size_hint(const LoadedObject& object, double scale);
 
+/// Of a sheet whose front, so turned, looks down: that a hand over it is drawn below, and which
+/// `--turn` would mend it. Empty for anything else.
+[[nodiscard]] std::string facing_hint(const LoadedObject& object, const Quat& turn);
+
 /// `json_object` with the keys "object" (its `object_name`), "at", "turn", "scale" and, where there
 /// is one, "animation_start" set; an empty text counts as {}. Its text has to be a JSON object.
 [[nodiscard]] std::string with_placing(const std::string& json_object,
