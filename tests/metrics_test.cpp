@@ -5,13 +5,16 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <random>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "generic_hand.h"
+#include "nade/mesh.h"
 #include "nade/skeleton.h"
+#include "support/meshes.h"
 #include "toy_hand.h"
 
 namespace nade {
@@ -114,6 +117,63 @@ TEST(Metrics, TableHasTheKeysOfTheContract) {
                                        "own_jolt_p999_mm",
                                        "own_tremble_mm"};
   EXPECT_EQ(keys, expected);
+}
+
+/// A board whose top is at y = 0.
+struct Board {
+  explicit Board(float thickness_m)
+      : surface(
+            MeshSurface::build(test::box_mesh({0.3F, 0.5F * thickness_m, 0.3F}), "board").value()),
+        object(*surface, {{Vec3(0.0, -0.5 * thickness_m, 0.0), Quat::Identity()}, 1.0}) {}
+  std::unique_ptr<MeshSurface> surface;
+  Object object;
+};
+
+/// A hand's joints come down to `kDeep` in half a second, and stay as long.
+double height_at(double seconds) { return std::max(kDeep, 0.05 - 0.14 * seconds); }
+
+Metrics measure_on(const Object& object, const Motion& motion) {
+  const HandMesh toy = toy_mesh(Handedness::right);
+  MetricsMeter meter(toy);
+  for (int i = 0; i < 90; ++i) {
+    const Pair pair = motion(i / kRate);
+    meter.add(i * std::int64_t{11'111'111}, pair.tracked, pair.corrected, object);
+  }
+  return meter.finish();
+}
+
+TEST(Metrics, InAWallDepthCountsFromTheSideThatWasEntered) {
+  const PlaneSurface plane;
+  for (const float thickness_m : {0.001F, 0.01F, 0.025F}) {
+    const Board board(thickness_m);
+    for (const double drawn_height_m : {kDeep, 0.01}) {
+      const Motion motion = [&](double seconds) {
+        const HandPose hand = shifted(at_height(height_at(seconds)), wander(seconds));
+        const double up_m = std::max(0.0, drawn_height_m - height_at(seconds));
+        return Pair{hand, shifted(hand, Vec3(0.0, up_m, 0.0))};
+      };
+      const Metrics on_board = measure_on(board.object, motion);
+      const Metrics on_plane = measure_on(Object(plane), motion);
+      EXPECT_GT(on_board.pressing_frames, 40U);
+      EXPECT_EQ(on_board.pressing_frames, on_plane.pressing_frames);
+      EXPECT_EQ(on_board.part_samples, on_plane.part_samples);
+      EXPECT_NEAR(*on_board.penetration_max_mm, *on_plane.penetration_max_mm, 1e-3);
+      EXPECT_NEAR(*on_board.penetration_mean_mm, *on_plane.penetration_mean_mm, 1e-3);
+    }
+  }
+}
+
+TEST(Metrics, HandThatGoesRoundABoardsEdgeIsNotInIt) {
+  const Board board(0.01F);
+  const Metrics metrics = measure_on(board.object, [](double seconds) {
+    // Down beside it, then under it.
+    const double along_m = std::max(0.0, seconds - 0.5);
+    const HandPose hand =
+        shifted(at_height(height_at(seconds) - 0.01), Vec3(0.4 - 0.4 * along_m, 0.0, 0.0));
+    return Pair{hand, hand};
+  });
+  EXPECT_EQ(metrics.frames, 90U);
+  EXPECT_EQ(metrics.pressing_frames, 0U);
 }
 
 TEST(Metrics, HandInTheAirPressesNothing) {

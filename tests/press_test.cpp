@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <numbers>
 
 #include "nade/hand_mesh.h"
+#include "support/meshes.h"
 
 namespace nade {
 namespace {
@@ -135,6 +137,35 @@ TEST(Press, WhatCannotBeReachedIsToldWithItsDepth) {
   EXPECT_EQ(press(loaded("plane"), {}, wandering_track(), 0.0).error().code,
             ErrorCode::out_of_range);
   EXPECT_EQ(press(loaded("plane"), {}, PalmTrack(), 0.03).error().code, ErrorCode::bad_value);
+}
+
+/// A board 40 cm wide, its top at y = 0.
+std::string board_file(double thickness_m) {
+  const TriangleSoup soup = test::box_mesh({0.2F, static_cast<float>(0.5 * thickness_m), 0.2F});
+  const std::string path = testing::TempDir() + "nade_press_board.obj";
+  std::ofstream file(path);
+  for (const Eigen::Vector3f& v : soup.vertices) {
+    file << "v " << v.x() << ' ' << v.y() - 0.5 * thickness_m << ' ' << v.z() << '\n';
+  }
+  for (const auto& t : soup.triangles) {
+    file << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
+  }
+  return path;
+}
+
+TEST(Press, BoardsArePressedFromTheSideThatIsEntered) {
+  PalmTrack track;
+  track.add(frame_with(Vec3(0.3, 0.2, -0.1)));
+  for (const double thickness_m : {0.001, 0.003, 0.01, 0.03}) {
+    const LoadedObject board = loaded(board_file(thickness_m));
+    for (const double depth_m : {0.0004, 0.002, 0.008, 0.02}) {
+      const auto pressed = press(board, {}, track, depth_m);
+      ASSERT_TRUE(pressed.ok()) << pressed.error().message;
+      EXPECT_NEAR(pressed->pose.position.y(), 0.2 + depth_m, 1e-6) << thickness_m;
+    }
+  }
+  // Of what is no wall, depth is the distance to the surface: it ends in the middle.
+  EXPECT_FALSE(press(loaded(board_file(0.08)), {}, track, 0.045).ok());
 }
 
 TEST(Press, RealRecordingsLieAsDeepAsAsked) {

@@ -122,6 +122,8 @@ void MetricsMeter::Impl::break_off() {
   motion.break_off();
   bend.break_off();
   pose.break_off();
+  tracked_probe.break_off();
+  corrected_probe.break_off();
 }
 
 MetricsMeter::MetricsMeter(const HandMesh& mesh, const MetricsOptions& options)
@@ -146,6 +148,7 @@ FrameReading MetricsMeter::add(std::int64_t time_ns, const HandPose& tracked,
   ++meter.frames;
   FrameReading reading;
   const SkinReading tracked_skin = meter.tracked_probe.read(tracked, object);
+  const SkinReading corrected_skin = meter.corrected_probe.read(corrected, object);
   const bool pressing = tracked_skin.lowest < -kPressing_m;
   const auto pop_m =
       meter.motion.add({1e-9 * static_cast<double>(time_ns), &tracked, &corrected, pressing});
@@ -157,7 +160,6 @@ FrameReading MetricsMeter::add(std::int64_t time_ns, const HandPose& tracked,
       meter.bend.add(tracked, corrected, pressing ? Pressing::yes : Pressing::no);
   reading.bend_added_deg = bend.added_median_deg;
   if (pressing) {
-    const SkinReading corrected_skin = meter.corrected_probe.read(corrected, object);
     reading.penetration_mm = meter.take_skin(corrected_skin);
     reading.part_gap_mm = meter.take_gaps(tracked_skin, corrected_skin, bend.curling);
   }

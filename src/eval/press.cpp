@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "nade/hand_mesh.h"
+#include "wall_memory.h"
 
 namespace nade {
 namespace {
@@ -16,6 +17,7 @@ constexpr double kDepthMax_m = 0.2;
 constexpr double kRise_m = 0.005;         // of the scan that finds where the depth is first passed
 constexpr double kFarthest_m = 5.0;       // that the scan goes from the palms' median height
 constexpr std::size_t kScanFrames = 600;  // enough for a median to a fraction of kRise_m
+constexpr double kAbovePlace_m = 0.05;    // a wall higher than this over the place is another
 constexpr double kNothing = -std::numeric_limits<double>::infinity();
 
 double median(std::vector<double>& values) {
@@ -24,6 +26,45 @@ double median(std::vector<double>& values) {
   std::nth_element(values.begin(), middle, values.end());
   if (values.size() % 2 == 1) return *middle;
   return 0.5 * (*middle + *std::max_element(values.begin(), middle));
+}
+
+/// From where an object is pressed.
+struct Entry {
+  Vec3 place = Vec3::Zero();
+  Vec3 up = Vec3::UnitY();  ///< unit, out of the object there
+};
+
+/// How deep a point lies as seen from the side that was entered, where it is nearer to the far side
+/// of a thin wall, or beyond it; no value elsewhere.
+std::optional<double> depth_through(const Object& object, const Vec3& point,
+                                    const SurfacePoint& nearest, const Entry& entry) {
+  constexpr double kFacesAway = -0.5;
+  if (nearest.normal.dot(entry.up) > kFacesAway) return std::nullopt;
+  const auto side = side_above(object, point, entry.up);
+  if (!side || !side->thin) return std::nullopt;
+  const bool of_place = (side->point - entry.place).dot(entry.up) <= kAbovePlace_m;
+  return of_place ? std::optional(side->depth_m) : std::nullopt;
+}
+
+/// The median over the frames of how deep the deeper palm lies.
+double median_depth(const Object& object, std::span<const PalmSkin> frames,
+                    const std::optional<Entry>& entry) {
+  std::vector<double> depths;
+  depths.reserve(frames.size());
+  std::array<SurfaceHint, 2> hints;
+  for (const PalmSkin& frame : frames) {
+    double deepest = kNothing;
+    for (std::size_t side = 0; side < frame.size(); ++side) {
+      if (!frame[side]) continue;
+      const auto nearest = object.closest_point(*frame[side], kReach_m, hints[side]);
+      if (!nearest) continue;
+      const auto through =
+          entry ? depth_through(object, *frame[side], *nearest, *entry) : std::nullopt;
+      deepest = std::max(deepest, through.value_or(-nearest->signed_distance));
+    }
+    depths.push_back(deepest);
+  }
+  return median(depths);
 }
 
 /// The frames' palms as seen by an object that is pushed about without turning.
@@ -118,7 +159,9 @@ class PressSearch {
 
   [[nodiscard]] double depth_at(const Vec3& under, double height,
                                 std::span<const PalmSkin> frames) const {
-    return median_depth(object_.placed(placed(under, height)), frames);
+    const Placement placement = placed(under, height);
+    return median_depth(object_.placed(placement), frames,
+                        Entry{placement.pose.position + place_offset_, up_});
   }
 
   std::optional<double> first_height(const Vec3& under) {
@@ -184,19 +227,7 @@ void PalmTrack::add(const RecordedFrame& frame) {
 }
 
 double median_depth(const Object& object, std::span<const PalmSkin> frames) {
-  std::vector<double> depths;
-  depths.reserve(frames.size());
-  std::array<SurfaceHint, 2> hints;
-  for (const PalmSkin& frame : frames) {
-    double deepest = kNothing;
-    for (std::size_t side = 0; side < frame.size(); ++side) {
-      if (!frame[side]) continue;
-      const auto nearest = object.closest_point(*frame[side], kReach_m, hints[side]);
-      if (nearest) deepest = std::max(deepest, -nearest->signed_distance);
-    }
-    depths.push_back(deepest);
-  }
-  return median(depths);
+  return median_depth(object, frames, std::nullopt);
 }
 
 Result<Placement> press(const LoadedObject& object, const Placement& placement,

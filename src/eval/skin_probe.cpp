@@ -23,6 +23,12 @@ std::vector<std::uint8_t> find_patches(const HandMesh& mesh) {
   return patches;
 }
 
+std::uint8_t heaviest_bone(const HandMesh& mesh, std::size_t vertex) {
+  const std::array<float, 4>& weights = mesh.weights[vertex];
+  const auto heaviest = std::max_element(weights.begin(), weights.end()) - weights.begin();
+  return mesh.bones[vertex][static_cast<std::size_t>(heaviest)];
+}
+
 /// Vertices as far from each other as can be: each next is the farthest from those before.
 std::vector<std::size_t> spread_middles(const HandMesh& mesh, std::vector<std::size_t>& owner) {
   const std::size_t count = mesh.vertices.size();
@@ -56,7 +62,8 @@ double reach_of(const HandPose& hand, double scale) {
 
 }  // namespace
 
-SkinProbe::SkinProbe(const HandMesh& mesh, double scale) : mesh_(&mesh), scale_(scale) {
+SkinProbe::SkinProbe(const HandMesh& mesh, double scale)
+    : mesh_(&mesh), scale_(scale), walls_(mesh.vertices.size()) {
   NADE_ASSERT(scale > 0.0 && std::isfinite(scale));
   NADE_ASSERT(mesh.normals.size() == mesh.vertices.size());
   make_clusters(find_patches(mesh));
@@ -66,6 +73,7 @@ SkinProbe::SkinProbe(const HandMesh& mesh, double scale) : mesh_(&mesh), scale_(
     slot_of_[vertices_[slot].index] = slot;
   }
   distances_m_.resize(vertices_.size());
+  through_m_.assign(vertices_.size(), kNotMeasured);
   skin_.resize(mesh.vertices.size());
   middles_.reserve(clusters_.size());
 }
@@ -75,10 +83,11 @@ void SkinProbe::make_clusters(const std::vector<std::uint8_t>& patches) {
   const std::vector<std::size_t> middles = spread_middles(*mesh_, owner);
   for (std::size_t c = 0; c < middles.size(); ++c) {
     Cluster cluster{vertices_.size(), 1};
-    vertices_.push_back({static_cast<std::uint32_t>(middles[c]), patches[middles[c]]});
+    vertices_.push_back({static_cast<std::uint32_t>(middles[c]), patches[middles[c]],
+                         heaviest_bone(*mesh_, middles[c])});
     for (std::size_t i = 0; i < owner.size(); ++i) {
       if (owner[i] != c || i == middles[c]) continue;
-      vertices_.push_back({static_cast<std::uint32_t>(i), patches[i]});
+      vertices_.push_back({static_cast<std::uint32_t>(i), patches[i], heaviest_bone(*mesh_, i)});
       ++cluster.count;
     }
     clusters_.push_back(cluster);
@@ -93,13 +102,17 @@ double SkinProbe::measure(std::size_t slot, const Object& object, SkinReading& r
   const auto nearest = object.closest_point(position(slot), kNotMeasured, hints_[slot]);
   if (!nearest) return kNotMeasured;
   const double distance = nearest->signed_distance;
-  reading.lowest = std::min(reading.lowest, distance);
+  take(slot, distance, reading);
   if (std::abs(distance) <= kTouch_m) reading.touches = true;
+  return distance;
+}
+
+void SkinProbe::take(std::size_t slot, double distance, SkinReading& reading) const {
+  reading.lowest = std::min(reading.lowest, distance);
   for (std::size_t part = 0; part < kPartCount; ++part) {
     if ((vertices_[slot].patches >> part & 1U) == 0) continue;
     reading.patch_lowest[part] = std::min(reading.patch_lowest[part], distance);
   }
-  return distance;
 }
 
 void SkinProbe::read_cluster(const MiddleReading& middle, const Object& object,
@@ -122,7 +135,7 @@ void SkinProbe::complete(std::size_t vertex, const Object& object) {
   if (std::isfinite(distances_m_[vertex])) return;
   SurfaceHint& hint = hints_[slot_of_[vertex]];
   const auto nearest = object.closest_point(skin_[vertex].cast<double>(), kNotMeasured, hint);
-  if (nearest) distances_m_[vertex] = nearest->signed_distance;
+  if (nearest) distances_m_[vertex] = std::min(nearest->signed_distance, through_m_[vertex]);
 }
 
 std::span<const double> SkinProbe::read_below(const HandPose& hand, const Object& object,
@@ -136,7 +149,8 @@ std::span<const double> SkinProbe::read_below(const HandPose& hand, const Object
     const Vec3 center = position(cluster.first);
     for (std::size_t slot = cluster.first + 1; slot < cluster.first + cluster.count; ++slot) {
       const double least = distances_m_[middle] - (position(slot) - center).norm();
-      if (least < limit_m) complete(vertices_[slot].index, object);
+      const std::size_t vertex = vertices_[slot].index;
+      if (std::min(least, through_m_[vertex]) < limit_m) complete(vertex, object);
     }
   }
   return distances_m_;
@@ -148,11 +162,28 @@ double SkinProbe::least_distance(const HandPose& hand, const Object& object) {
   return under_palm ? under_palm->signed_distance - reach_of(hand, scale_) : kNotMeasured;
 }
 
+void SkinProbe::follow_walls(const MiddleReading& middle, const HandPose& hand,
+                             const Object& object, SkinReading& reading) {
+  const Cluster& cluster = *middle.cluster;
+  const Vec3 center = position(cluster.first);
+  for (std::size_t slot = cluster.first; slot < cluster.first + cluster.count; ++slot) {
+    const Vec3 now = position(slot);
+    const double clear_m = std::abs(middle.distance_m) - (now - center).norm();
+    const Vec3& bone = hand.joints[vertices_[slot].bone].position;
+    const auto depth_m = walls_.follow(slot, {now, bone, clear_m}, object);
+    if (!depth_m) continue;
+    through_m_[vertices_[slot].index] = -*depth_m;
+    take(slot, -*depth_m, reading);
+  }
+}
+
 SkinReading SkinProbe::read(const HandPose& hand, const Object& object) {
   SkinReading reading;
+  std::fill(through_m_.begin(), through_m_.end(), kNotMeasured);
   const double least = least_distance(hand, object);
   if (least > kTouch_m) {
     reading.lowest = least;
+    walls_.forget();
     return reading;
   }
   pose_skin(*mesh_, hand, scale_, skin_, {});
@@ -165,6 +196,7 @@ SkinReading SkinProbe::read(const HandPose& hand, const Object& object) {
     return a.distance_m < b.distance_m;
   });
   for (const MiddleReading& middle : middles_) read_cluster(middle, object, reading);
+  for (const MiddleReading& middle : middles_) follow_walls(middle, hand, object, reading);
   return reading;
 }
 

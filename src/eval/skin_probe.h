@@ -8,6 +8,7 @@
 
 #include "nade/hand_mesh.h"
 #include "nade/surface.h"
+#include "wall_memory.h"
 
 namespace nade {
 
@@ -38,10 +39,14 @@ class SkinProbe {
  public:
   SkinProbe(const HandMesh& mesh, double scale);
 
+  /// Call it for every frame: in and beyond a thin wall depth counts from the side that was
+  /// entered.
   [[nodiscard]] SkinReading read(const HandPose& hand, const Object& object);
+  /// The next hand does not go on from the last one.
+  void break_off() { walls_.forget(); }
 
   /// The signed distance of each vertex of the mesh, metres; infinite for skin that certainly lies
-  /// no lower than `limit_m`.
+  /// no lower than `limit_m`. Of the hand that was read last.
   [[nodiscard]] std::span<const double> read_below(const HandPose& hand, const Object& object,
                                                    double limit_m);
   /// The same of one vertex of the hand that was read last, however far it is; in what `read_below`
@@ -52,6 +57,7 @@ class SkinProbe {
   struct Vertex {
     std::uint32_t index;   ///< in the mesh
     std::uint8_t patches;  ///< bit i: belongs to part i
+    std::uint8_t bone;     ///< that weighs most on it
   };
   struct Cluster {
     std::size_t first = 0;  ///< in vertices_: its middle
@@ -65,8 +71,11 @@ class SkinProbe {
   /// No skin of the hand lies lower; infinite where there is no object.
   [[nodiscard]] double least_distance(const HandPose& hand, const Object& object);
   void make_clusters(const std::vector<std::uint8_t>& patches);
+  void take(std::size_t slot, double distance, SkinReading& reading) const;
   [[nodiscard]] double measure(std::size_t slot, const Object& object, SkinReading& reading);
   void read_cluster(const MiddleReading& middle, const Object& object, SkinReading& reading);
+  void follow_walls(const MiddleReading& middle, const HandPose& hand, const Object& object,
+                    SkinReading& reading);
   [[nodiscard]] Vec3 position(std::size_t slot) const;
 
   const HandMesh* mesh_;
@@ -76,8 +85,10 @@ class SkinProbe {
   std::vector<SurfaceHint> hints_;    ///< for each of vertices_
   std::vector<std::size_t> slot_of_;  ///< by vertex of the mesh
   std::vector<double> distances_m_;   ///< by vertex of the mesh
+  std::vector<double> through_m_;     ///< the same, where it is in a thin wall; else infinite
   std::vector<Eigen::Vector3f> skin_;
   std::vector<MiddleReading> middles_;
+  WallMemory walls_;
   SurfaceHint palm_hint_;
 };
 

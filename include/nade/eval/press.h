@@ -42,9 +42,9 @@ class PalmTrack {
 
 /// What `--press D` asks for: `placement` moved, with its rotation and scale kept, so that the
 /// median depth is `depth_m` (0 to 0.2 m, not 0). The object's stroking place is brought under the
-/// palms and raised along its normal until that depth is first reached; where that is not to be
-/// had under the palms' median, a place for it is searched nearby. The error says how deep it can
-/// go.
+/// palms and raised along its normal until that depth is first reached, which in a wall of up to 50
+/// mm counts from the place's side and may be beyond the other; where that is not to be had under
+/// the palms' median, a place for it is searched nearby. The error says how deep it can go.
 [[nodiscard]] Result<Placement> press(const LoadedObject& object, const Placement& placement,
                                       const PalmTrack& track, double depth_m);
 
