@@ -2,9 +2,10 @@
 # neither installed nor fetched again.
 .NOTPARALLEL:
 .DEFAULT_GOAL := help
-.PHONY: help demo test build bench asan test-headset tidy format format-check install clean setup
+.PHONY: help demo test build bench asan fuzz tsan test-headset tidy format format-check install clean setup
 
 PREFIX ?= /usr/local
+SECONDS ?= 60
 sources = $(shell find apps assets bench examples include src tests tools -name '*.h' -o -name '*.cpp')
 
 help: ## List these targets
@@ -26,6 +27,13 @@ bench: setup ## Medians and 99th percentiles on this machine
 asan: setup ## The tests under the address and undefined-behaviour sanitizers
 	@scripts/build asan
 	@ctest --preset asan -j "$$(nproc)"
+
+fuzz: setup ## Looks for input that breaks the library, each kind for SECONDS=60: make fuzz SECONDS=1800
+	@scripts/fuzz '$(SECONDS)'
+
+tsan: setup ## Two hands on one mesh, on two threads, under the thread sanitizer
+	@scripts/build tsan
+	@ctest --preset tsan
 
 test-headset: setup ## All of it in a Debian 13 system, with g++ 14, and `nade xr` on the OpenXR runtime there (root)
 	@scripts/test_xr --all
