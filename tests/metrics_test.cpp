@@ -599,20 +599,58 @@ TEST(Metrics, JoltsAreToldAtOneRate) {
   }
 }
 
+MetricTarget target_of(const std::string& key) {
+  for (const MetricInfo& info : metric_table()) {
+    if (info.key == key) return info.target;
+  }
+  ADD_FAILURE() << "no metric " << key;
+  return {};
+}
+
 TEST(Metrics, Targets) {
-  const auto met = [](const char* key, double value) -> std::optional<bool> {
-    for (const MetricInfo& info : metric_table()) {
-      if (std::string(info.key) == key) return meets(info.target, value);
-    }
-    return std::nullopt;
+  const auto met = [](const char* key, double value) {
+    return meets(bounds_in(target_of(key), {}), value);
   };
-  EXPECT_EQ(met("penetration_max_mm", 2.0), true);
-  EXPECT_EQ(met("penetration_max_mm", 2.1), false);
+  EXPECT_EQ(met("excess_max_mm", 1.5), true);
+  EXPECT_EQ(met("excess_max_mm", 1.6), false);
   EXPECT_EQ(met("contact_ratio", 0.98), false);
   EXPECT_EQ(met("linkage_gain", 0.92), false);
   EXPECT_EQ(met("linkage_gain", 1.05), true);
   EXPECT_EQ(met("linkage_lag_ms", -11.0), false);
-  EXPECT_FALSE(met("penetration_p99_mm", 1.0));
+  for (const char* const key : {"penetration_max_mm", "part_gap_p95_mm", "jitter_ratio"}) {
+    EXPECT_FALSE(met(key, 1.0)) << key << " is reported without a target";
+    EXPECT_EQ(words_of(target_of(key)), "") << key;
+  }
+}
+
+TEST(Metrics, TargetsRelativeToTheTrackedHandsOwnMotion) {
+  Metrics shaky;
+  EXPECT_FALSE(meets(bounds_in(target_of("tremble_mm"), shaky), 0.1)) << "its own is not known";
+  shaky.own_tremble_mm = 0.4;
+  shaky.own_jolt_p999_mm = 2.0;
+  EXPECT_EQ(meets(bounds_in(target_of("tremble_mm"), shaky), 0.34), true);
+  EXPECT_EQ(meets(bounds_in(target_of("tremble_mm"), shaky), 0.36), false);
+  EXPECT_EQ(meets(bounds_in(target_of("jolt_p999_mm"), shaky), 4.9), true);
+  EXPECT_EQ(meets(bounds_in(target_of("jolt_p999_mm"), shaky), 5.1), false);
+  EXPECT_EQ(words_of(target_of("tremble_mm")), "at most 0.15 + 0.5 own");
+  EXPECT_EQ(words_of(target_of("jolt_p999_mm")), "at most 3 + own");
+}
+
+TEST(Metrics, TargetsRelativeToThePapersMethod) {
+  EXPECT_FALSE(meets(bounds_in(target_of("print_share"), {}), 0.9)) << "the paper's is not known";
+  EXPECT_EQ(meets(bounds_in(target_of("print_share"), {}, 0.3), 0.3), true);
+  EXPECT_EQ(meets(bounds_in(target_of("print_share"), {}, 0.3), 0.29), false);
+  EXPECT_EQ(meets(bounds_in(target_of("hover_mm"), {}, 5.0), 4.0), true);
+  EXPECT_EQ(meets(bounds_in(target_of("hover_mm"), {}, 5.0), 5.1), false);
+  EXPECT_EQ(words_of(target_of("print_share")), "at least the paper's");
+}
+
+TEST(Metrics, TargetsSayInHowManyCases) {
+  for (const MetricInfo& info : metric_table()) {
+    EXPECT_EQ(info.target.share.has_value(), info.target.bounds.any()) << info.key;
+  }
+  EXPECT_EQ(target_of("limit_violation_max_deg").share, 1.0);
+  EXPECT_EQ(target_of("print_share").share, 0.85);
 }
 
 }  // namespace

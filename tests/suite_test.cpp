@@ -92,6 +92,21 @@ TEST(Suite, AThirdOfTheSeedsIsHeldOut) {
               0.1 * static_cast<double>(drawn));
 }
 
+TEST(Suite, WhereAPalmCouldLieFlat) {
+  const auto is_flat = [](const char* object, double depth_m) {
+    SuiteCase stroke;
+    stroke.object = object;
+    stroke.synth.depth_m = depth_m;
+    return stroke.is_flat();
+  };
+  EXPECT_TRUE(is_flat("plane", 0.02));
+  EXPECT_TRUE(is_flat("sphere", 0.02));
+  EXPECT_TRUE(is_flat("sphere:0.15", 0.01));
+  EXPECT_FALSE(is_flat("sphere:0.1", 0.02));
+  EXPECT_FALSE(is_flat("plane", 0.005));
+  EXPECT_FALSE(is_flat("dog", 0.02));
+}
+
 TEST(Suite, CoversWhatHandsDo) {
   std::set<Stroke> strokes;
   std::set<NoiseModel> noises;

@@ -16,8 +16,8 @@
 #include "commands.h"
 #include "console.h"
 #include "nade/io/output_file.h"
-#ifdef NADE_CLI_PHYSICS
 #include "number_options.h"
+#ifdef NADE_CLI_PHYSICS
 #include "physics_hand.h"
 #endif
 

@@ -43,11 +43,11 @@ Error of_case(const SuiteCase& suite_case, const Error& error) {
 class Workers {
  public:
   Workers(const BenchPlan& plan, const DrawnHands& hands, const Objects& objects,
-          std::vector<CaseScore>& scores)
+          BenchReport& report)
       : plan_(plan),
         hands_(hands),
         objects_(objects),
-        scores_(scores),
+        report_(report),
         progress_("measured", plan.cases.size(), "cases") {}
 
   [[nodiscard]] Status run() {
@@ -81,9 +81,16 @@ class Workers {
     const SuiteObject& object = objects_.at(suite_case.object);
     const Result<CaseRecording> tracked = make_recording(suite_case, object);
     if (!tracked) return of_case(suite_case, tracked.error());
+    bool has_paper = false;
     for (std::size_t m = 0; m < plan_.methods.size(); ++m) {
-      scores_[index * plan_.methods.size() + m] =
-          score(suite_case, *tracked, object, hands_, plan_.methods[m]);
+      CaseScore& scored = report_.scores[index * plan_.methods.size() + m];
+      scored = score(suite_case, *tracked, object, hands_, plan_.methods[m]);
+      if (plan_.methods[m].name != paper_.name) continue;
+      report_.paper[index] = scored.metrics;
+      has_paper = true;
+    }
+    if (!has_paper) {
+      report_.paper[index] = score(suite_case, *tracked, object, hands_, paper_).metrics;
     }
     return ok_status();
   }
@@ -91,7 +98,8 @@ class Workers {
   const BenchPlan& plan_;
   const DrawnHands& hands_;
   const Objects& objects_;
-  std::vector<CaseScore>& scores_;
+  BenchReport& report_;
+  const ComparedMethod paper_ = paper_method();
   Progress progress_;
   std::atomic<std::size_t> next_ = 0;
   std::mutex mutex_;
@@ -177,11 +185,13 @@ Result<BenchReport> run_bench(const BenchPlan& plan, const DrawnHands& hands) {
   BenchReport report;
   for (const ComparedMethod& method : plan.methods) report.methods.push_back(method.name);
   for (const SuiteCase& suite_case : plan.cases) {
-    report.cases.push_back(suite_case.name());
-    report.held_out.push_back(suite_case.is_held_out());
+    report.cases.push_back({suite_case.name(),
+                            suite_case.is_held_out() ? CaseSet::held_out : CaseSet::strokes,
+                            suite_case.is_flat()});
   }
   report.scores.resize(plan.cases.size() * plan.methods.size());
-  Workers workers(plan, hands, *objects, report.scores);
+  report.paper.resize(plan.cases.size());
+  Workers workers(plan, hands, *objects, report);
   const Status done = workers.run();
   if (!done.ok()) return done.error();
   return report;
@@ -196,7 +206,7 @@ Status dump_worst(const BenchPlan& plan, const DrawnHands& hands, const BenchRep
     for (std::size_t m = 0; m < report.methods.size(); ++m) {
       const auto summary = summary_of(report, m, figure);
       if (!summary) continue;
-      const std::string name = slug(report.cases[summary->worst_case]);
+      const std::string name = slug(report.cases[summary->worst_case].name);
       cases.emplace(summary->worst_case, name);
       index +=
           fmt::format("{} {} {:.6g} {}\n", figure.key, report.methods[m], summary->worst, name);

@@ -36,18 +36,9 @@ std::string shown(const std::optional<double>& value) {
   return value ? fmt::format("{:.3f}", *value) : "-";
 }
 
-std::string shown(const MetricTarget& target) {
-  if (target.at_least && target.at_most) {
-    return fmt::format("{:g} to {:g}", *target.at_least, *target.at_most);
-  }
-  if (target.at_least) return fmt::format("at least {:g}", *target.at_least);
-  if (target.at_most) return fmt::format("at most {:g}", *target.at_most);
-  return "";
-}
-
-std::string_view verdict(const MetricTarget& target, const std::optional<double>& value) {
-  if (!value) return "";
-  const std::optional<bool> met = meets(target, *value);
+std::string_view verdict(const MetricInfo& info, const Metrics& metrics) {
+  const std::optional<double>& value = metrics.*info.value;
+  const auto met = value ? meets(bounds_in(info.target, metrics), *value) : std::nullopt;
   if (!met) return "";
   return *met ? "met" : "not met";
 }
@@ -88,8 +79,8 @@ std::string as_text(const MeasureReport& report) {
     for (const Column& column : columns) {
       fmt::format_to(out, "{:>12}", shown(column.metrics->*info.value));
     }
-    const std::string line = fmt::format("  {:<4}  {:<16}  {}", info.unit, shown(info.target),
-                                         verdict(info.target, report.both.*info.value));
+    const std::string line = fmt::format("  {:<4}  {:<22}  {}", info.unit, words_of(info.target),
+                                         verdict(info, report.both));
     text += line.substr(0, line.find_last_not_of(' ') + 1);
     text += '\n';
   }

@@ -108,9 +108,11 @@ Result<DrawnHands> load_drawn_hands() {
 }
 
 std::vector<ComparedMethod> library_methods() {
-  return {corrector_method("none", Method::none), corrector_method("paper", Method::paper),
+  return {corrector_method("none", Method::none), paper_method(),
           corrector_method("nade", Method::nade), wrist_offset_method()};
 }
+
+ComparedMethod paper_method() { return corrector_method("paper", Method::paper); }
 
 CorrectedRecording correct(const CaseRecording& tracked, const SuiteObject& object,
                            const DrawnHands& hands, const ComparedMethod& method) {
@@ -177,11 +179,12 @@ CaseScore score(const SuiteCase& suite_case, const CaseRecording& tracked,
   return result;
 }
 
-double badness(const MetricTarget& target, double value) {
-  if (target.at_least && target.at_most) {
-    return std::abs(value - 0.5 * (*target.at_least + *target.at_most));
+double badness(const MetricBounds& bounds, double value) {
+  if (bounds.at_least && bounds.at_most) {
+    return std::abs(value - 0.5 * (*bounds.at_least + *bounds.at_most));
   }
-  return target.at_least ? -value : value;
+  if (bounds.at_least) return *bounds.at_least - value;
+  return value - bounds.at_most.value_or(0.0);
 }
 
 }  // namespace nade

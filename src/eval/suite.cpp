@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -249,6 +250,18 @@ Result<CaseRecording> make_stroke(const SuiteCase& suite_case, const SuiteObject
 }
 
 }  // namespace
+
+bool SuiteCase::is_flat() const {
+  constexpr double kFlatBall_m = 0.15;
+  constexpr double kPressed_m = 0.01;
+  if ((clip ? press_m : synth.depth_m) < kPressed_m) return false;
+  if (object == "plane" || object == "sphere") return true;
+  constexpr std::string_view kBall = "sphere:";
+  if (!object.starts_with(kBall)) return false;
+  double radius_m = 0.0;
+  std::from_chars(object.data() + kBall.size(), object.data() + object.size(), radius_m);
+  return radius_m >= kFlatBall_m;
+}
 
 std::string SuiteCase::name() const {
   const std::string file = std::filesystem::path(object).filename().string();

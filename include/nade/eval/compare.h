@@ -49,6 +49,9 @@ struct ComparedMethod {
 /// none, paper, nade and wrist-offset (nade/eval/wrist_offset.h).
 [[nodiscard]] std::vector<ComparedMethod> library_methods();
 
+/// The paper's, which targets refer to.
+[[nodiscard]] ComparedMethod paper_method();
+
 /// A recording as a method corrects it.
 struct CorrectedRecording {
   std::vector<RecordedFrame> frames;
@@ -75,8 +78,8 @@ struct CaseScore {
                               const SuiteObject& object, const DrawnHands& hands,
                               const ComparedMethod& method);
 
-/// How bad a value of a metric is, for finding the worst: the larger, the farther from its target,
+/// How bad a value of a metric is, for finding the worst: the larger, the farther from its bounds,
 /// or from 0 where it has none.
-[[nodiscard]] double badness(const MetricTarget& target, double value);
+[[nodiscard]] double badness(const MetricBounds& bounds, double value);
 
 }  // namespace nade

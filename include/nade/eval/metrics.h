@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "nade/hand_mesh.h"
 #include "nade/surface.h"
@@ -56,10 +57,28 @@ struct Metrics {
   std::optional<double> own_tremble_mm;
 };
 
-/// What a metric has to reach.
-struct MetricTarget {
+/// Between what a value has to lie; no bounds: anywhere.
+struct MetricBounds {
   std::optional<double> at_least;
   std::optional<double> at_most;
+  [[nodiscard]] bool any() const { return at_least || at_most; }
+};
+
+/// What a target's bounds are counted from.
+enum class TargetOrigin : std::uint8_t {
+  zero,
+  tracked,  ///< what the tracked hand does by itself
+  paper,    ///< what the paper's method makes of the same hand
+};
+
+/// What a metric has to reach, and in how many cases.
+struct MetricTarget {
+  MetricBounds bounds;
+  std::optional<double> share;  ///< of the cases, 0 to 1; where so much is asked
+  TargetOrigin from = TargetOrigin::zero;
+  /// Of `TargetOrigin::tracked`: the bounds lie above so many times this metric.
+  std::optional<double> Metrics::*own = nullptr;
+  double own_times = 1.0;
 };
 
 /// One metric, for tables and files.
@@ -73,8 +92,16 @@ struct MetricInfo {
 /// Every metric, in the order in which they are reported.
 [[nodiscard]] std::span<const MetricInfo> metric_table();
 
-/// Whether a value meets a target; no value where it has none.
-[[nodiscard]] std::optional<bool> meets(const MetricTarget& target, double value);
+/// A target's bounds in one recording, of which `metrics` are the method's and `paper` the paper's
+/// method's value of the same metric. None where what they are counted from is not known.
+[[nodiscard]] MetricBounds bounds_in(const MetricTarget& target, const Metrics& metrics,
+                                     std::optional<double> paper = std::nullopt);
+
+/// Whether a value lies within bounds; no value where there are none.
+[[nodiscard]] std::optional<bool> meets(const MetricBounds& bounds, double value);
+
+/// "at least 0.99", "0.93 to 1.07", "at most 3 + own", "at least the paper's"; empty without one.
+[[nodiscard]] std::string words_of(const MetricTarget& target);
 
 struct MetricsOptions {
   /// The recording's length from wrist to middle knuckle over the mesh's: one number for a whole

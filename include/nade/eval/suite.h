@@ -27,6 +27,10 @@ struct SuiteCase {
   /// from a third of all seeds.
   [[nodiscard]] bool is_held_out() const { return !clip && synth.seed % 3 == 0; }
 
+  /// Whether a palm lies on something that it could lie flat on: a plane or a ball of 150 mm and
+  /// more, pressed 10 mm and more.
+  [[nodiscard]] bool is_flat() const;
+
   /// What tells it from the others, in words: "dog/back line 0.1 m/s 20 mm quest left". Only what
   /// is out of the ordinary is named after the depth.
   [[nodiscard]] std::string name() const;
