@@ -1,5 +1,5 @@
-# Puts the hand models that scripts/fetch_assets keeps where programs look for what comes with
-# nade: share/nade, beside bin.
+# Puts the hand models that scripts/fetch_assets keeps, and scenes, where programs look for what comes
+# with nade: share/nade, beside bin.
 if(NOT NADE_ASSET_CACHE)
   execute_process(COMMAND "${PROJECT_SOURCE_DIR}/scripts/fetch_assets" --where
     OUTPUT_VARIABLE nade_asset_cache OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
@@ -23,6 +23,13 @@ foreach(asset
       "configure again; until then programs find no hand to draw.")
     break()
   endif()
+endforeach()
+
+# What `nade bench` plays beside strokes.
+file(GLOB nade_scenes CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/scenes/*.json")
+foreach(scene ${nade_scenes})
+  get_filename_component(name "${scene}" NAME)
+  configure_file("${scene}" "${NADE_SHARE_DIR}/scenes/${name}" COPYONLY)
 endforeach()
 
 # What comes with nade and is made while building; those who make it add themselves.

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench_choice.h"
 #include "bench_report.h"
 #include "bench_run.h"
 #include "command_files.h"
@@ -17,9 +18,6 @@
 #include "console.h"
 #include "nade/io/output_file.h"
 #include "number_options.h"
-#ifdef NADE_CLI_PHYSICS
-#include "physics_hand.h"
-#endif
 
 namespace nade::cli {
 namespace {
@@ -31,48 +29,13 @@ struct BenchArguments {
   std::string filter;
   std::vector<std::string> meshes;
   std::string clips;
+  std::string scenes;  ///< a folder; empty: those that come with nade
   std::size_t jobs = std::max(1U, std::thread::hardware_concurrency());
   std::optional<std::string> json;
   std::optional<std::string> csv;
   std::optional<std::string> markdown;
   std::string dump;
 };
-
-/// All that this program was built with, in the order in which they are reported.
-std::vector<ComparedMethod> all_methods() {
-  std::vector<ComparedMethod> methods = library_methods();
-#ifdef NADE_CLI_PHYSICS
-  methods.push_back(physics_method());
-#endif
-  return methods;
-}
-
-/// The methods of a list of names, parted by commas; all where there is none.
-Result<std::vector<ComparedMethod>> chosen_methods(std::string_view names) {
-  std::vector<ComparedMethod> known = all_methods();
-  if (names.empty()) return known;
-  std::vector<ComparedMethod> chosen;
-  while (true) {
-    const std::size_t end = std::min(names.find(','), names.size());
-    const std::string_view name = names.substr(0, end);
-    const auto found = std::find_if(known.begin(), known.end(), [&](const ComparedMethod& method) {
-      return method.name == name;
-    });
-    if (found == known.end()) {
-      std::string expected;
-      for (const ComparedMethod& method : known) {
-        expected += (expected.empty() ? "" : ", ") + method.name;
-      }
-      return misuse(fmt::format("--method '{}': expected some of {}", name, expected));
-    }
-    const bool again = std::any_of(chosen.begin(), chosen.end(), [&](const ComparedMethod& method) {
-      return method.name == name;
-    });
-    if (!again) chosen.push_back(*found);
-    if (end == names.size()) return chosen;
-    names.remove_prefix(end + 1);
-  }
-}
 
 /// The recordings in a folder, by name.
 Result<std::vector<std::string>> clips_in(const std::string& folder) {
@@ -107,6 +70,11 @@ Result<BenchPlan> plan_of(const BenchArguments& arguments) {
     Result<std::vector<std::string>> clips = clips_in(arguments.clips);
     if (!clips) return clips.error();
     options.clips = std::move(clips).value();
+  }
+  if (options.size != SuiteSize::quick) {
+    auto scenes = chosen_scenes(arguments.scenes);
+    if (!scenes) return scenes.error();
+    options.scenes = std::move(scenes).value();
   }
   std::vector<NamedFile> inputs;
   for (const std::string& mesh : options.mesh_files) inputs.push_back({"--mesh", mesh});
@@ -179,6 +147,11 @@ void add_bench(CLI::App& app, Action& action) {
       ->add_option("--clips", arguments->clips,
                    "a folder of recordings, each pressed 30 mm onto plane, sphere and dog")
       ->type_name("DIR");
+  command
+      ->add_option("--scenes", arguments->scenes,
+                   "a folder of scenes, or none (default those that come with nade)")
+      ->type_name("DIR")
+      ->excludes(quick);
   command->add_option("--jobs", arguments->jobs, "cases worked on at a time (default all cores)")
       ->type_name("N")
       ->transform(whole_number_in(1, 256));

@@ -24,7 +24,8 @@ struct ApartSet {
   std::string_view name;
   const char* key;  ///< in JSON
 };
-constexpr std::array<ApartSet, 1> kApart{{{CaseSet::held_out, "held out", "held_out"}}};
+constexpr std::array<ApartSet, 2> kApart{
+    {{CaseSet::held_out, "held out", "held_out"}, {CaseSet::scenes, "scenes", "scenes"}}};
 
 std::string percent(double share) { return fmt::format("{:.0f} %", 100.0 * share); }
 
@@ -284,10 +285,10 @@ std::string as_csv(const BenchReport& report) {
 }
 
 std::string as_json(const BenchReport& report) {
-  Json json{{"cases", Json::array()}, {"held_out", Json::array()}};
+  Json json{{"cases", Json::array()}};
   for (const BenchCase& one : report.cases) {
     json["cases"].push_back(one.name);
-    json["held_out"].push_back(one.set == CaseSet::held_out);
+    for (const ApartSet& of : kApart) json[of.key].push_back(one.set == of.set);
   }
   for (std::size_t m = 0; m < report.methods.size(); ++m) {
     Json& method = json["methods"][report.methods[m]];

@@ -14,6 +14,7 @@ namespace nade::cli {
 enum class CaseSet : std::uint8_t {
   strokes,
   held_out,  ///< strokes that nothing is tuned on
+  scenes,    ///< what hands do beside strokes
 };
 
 /// What is known of a case beforehand.

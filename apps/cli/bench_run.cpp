@@ -21,6 +21,10 @@
 namespace nade::cli {
 namespace {
 
+Error of_case(const SuiteCase& suite_case, const Error& error) {
+  return {error.code, fmt::format("{}: {}", suite_case.name(), error.message)};
+}
+
 /// Objects by name, each loaded once.
 using Objects = std::map<std::string, SuiteObject>;
 
@@ -28,15 +32,11 @@ Result<Objects> load_objects(const std::vector<SuiteCase>& cases) {
   Objects objects;
   for (const SuiteCase& suite_case : cases) {
     if (objects.contains(suite_case.object)) continue;
-    Result<SuiteObject> object = load_suite_object(suite_case.object);
-    if (!object) return object.error();
+    Result<SuiteObject> object = load_case_object(suite_case);
+    if (!object) return of_case(suite_case, object.error());
     objects.emplace(suite_case.object, std::move(object).value());
   }
   return objects;
-}
-
-Error of_case(const SuiteCase& suite_case, const Error& error) {
-  return {error.code, fmt::format("{}: {}", suite_case.name(), error.message)};
 }
 
 /// Takes cases off the plan, one at a time, until none is left or one has failed.
@@ -83,6 +83,7 @@ class Workers {
     if (!tracked) return of_case(suite_case, tracked.error());
     bool has_paper = false;
     for (std::size_t m = 0; m < plan_.methods.size(); ++m) {
+      if (!tracked->states.empty() && !plan_.methods[m].follows_objects) continue;
       CaseScore& scored = report_.scores[index * plan_.methods.size() + m];
       scored = score(suite_case, *tracked, object, hands_, plan_.methods[m]);
       if (plan_.methods[m].name != paper_.name) continue;
@@ -130,6 +131,11 @@ std::string as_off(const TriangleSoup& soup) {
   return text;
 }
 
+CaseSet set_of(const SuiteCase& suite_case) {
+  if (suite_case.scene) return CaseSet::scenes;
+  return suite_case.is_held_out() ? CaseSet::held_out : CaseSet::strokes;
+}
+
 Status write_recording(const std::string& path, const RecordingHeader& header,
                        const std::vector<RecordedFrame>& frames) {
   Result<RecordingWriter> writer = RecordingWriter::create(path, header);
@@ -144,18 +150,23 @@ Status write_recording(const std::string& path, const RecordingHeader& header,
 /// One case as files in `folder`.
 Status dump_case(const BenchPlan& plan, const DrawnHands& hands, const SuiteCase& suite_case,
                  const std::filesystem::path& folder) {
-  const Result<SuiteObject> object = load_suite_object(suite_case.object);
-  if (!object) return object.error();
+  const Result<SuiteObject> object = load_case_object(suite_case);
+  if (!object) return of_case(suite_case, object.error());
   Result<CaseRecording> tracked = make_recording(suite_case, *object);
   if (!tracked) return of_case(suite_case, tracked.error());
+  if (!tracked->states.empty()) {
+    warn(fmt::format("{}: not written, for a recording cannot say how its object moves",
+                     suite_case.name()));
+    return ok_status();
+  }
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
   if (failed) {
     return Error{ErrorCode::unwritable, fmt::format("{}: {}", folder.string(), failed.message())};
   }
   RecordingHeader header = tracked->header;
-  if (!load_object(suite_case.object)) {
-    const std::string mesh = (folder / (suite_case.object + ".off")).string();
+  if (object->loaded.soup && object->loaded.file.empty()) {
+    const std::string mesh = (folder / (slug(suite_case.object) + ".off")).string();
     const Status written = write_whole(mesh, as_off(*object->loaded.soup));
     if (!written.ok()) return written;
     header.unknown_json = with_placing(header.unknown_json, {mesh, tracked->placement});
@@ -185,9 +196,7 @@ Result<BenchReport> run_bench(const BenchPlan& plan, const DrawnHands& hands) {
   BenchReport report;
   for (const ComparedMethod& method : plan.methods) report.methods.push_back(method.name);
   for (const SuiteCase& suite_case : plan.cases) {
-    report.cases.push_back({suite_case.name(),
-                            suite_case.is_held_out() ? CaseSet::held_out : CaseSet::strokes,
-                            suite_case.is_flat()});
+    report.cases.push_back({suite_case.name(), set_of(suite_case), suite_case.is_flat()});
   }
   report.scores.resize(plan.cases.size() * plan.methods.size());
   report.paper.resize(plan.cases.size());

@@ -393,12 +393,14 @@ class PhysicsHand {
 }  // namespace
 
 ComparedMethod physics_method() {
-  return {"physics", [](const SolverContext& context) -> HandSolver {
+  return {"physics",
+          [](const SolverContext& context) -> HandSolver {
             const auto hand = std::make_shared<PhysicsHand>(context);
             return [hand](const HandPose& tracked, const Object& object, std::int64_t time_ns) {
               return hand->update(tracked, object, time_ns);
             };
-          }};
+          },
+          false};
 }
 
 }  // namespace nade::cli

@@ -59,7 +59,8 @@ double median_scale(const CaseRecording& recording, const DrawnHands& hands) {
 }
 
 /// How far tracked palms go along the surface while their skin is pressed in.
-double pressed_path_m(const CaseRecording& recording, const Object& object) {
+double pressed_path_m(const CaseRecording& recording, const SuiteObject& touched) {
+  const Object object = touched.loaded.placed(recording.placement);
   double path_m = 0.0;
   for (std::size_t side = 0; side < 2; ++side) {
     SurfaceHint hint;
@@ -116,12 +117,14 @@ ComparedMethod paper_method() { return corrector_method("paper", Method::paper);
 
 CorrectedRecording correct(const CaseRecording& tracked, const SuiteObject& object,
                            const DrawnHands& hands, const ComparedMethod& method) {
-  const Object placed = object.loaded.placed(tracked.placement);
+  ObjectPlayer player(tracked, object);
   const double scale = median_scale(tracked, hands);
   std::array<HandSolver, 2> solvers;
   CorrectedRecording corrected;
   corrected.frames.reserve(tracked.frames.size());
-  for (const RecordedFrame& frame : tracked.frames) {
+  for (std::size_t i = 0; i < tracked.frames.size(); ++i) {
+    const RecordedFrame& frame = tracked.frames[i];
+    const Object& now = player.at(i);
     RecordedFrame& result = corrected.frames.emplace_back();
     result.time_ns = frame.time_ns;
     for (const Handedness side : {Handedness::left, Handedness::right}) {
@@ -133,7 +136,7 @@ CorrectedRecording correct(const CaseRecording& tracked, const SuiteObject& obje
             {&object.loaded, tracked.placement, side, scale, hands.flesh[index_of(side)]});
       }
       const auto start = std::chrono::steady_clock::now();
-      const CorrectedHand solved = solver(hand->pose, placed, frame.time_ns);
+      const CorrectedHand solved = solver(hand->pose, now, frame.time_ns);
       const std::chrono::duration<double, std::micro> took =
           std::chrono::steady_clock::now() - start;
       corrected.solve_us.add(took.count());
@@ -145,16 +148,17 @@ CorrectedRecording correct(const CaseRecording& tracked, const SuiteObject& obje
 
 Metrics measure(const CaseRecording& tracked, const SuiteObject& object, const DrawnHands& hands,
                 const CorrectedRecording& corrected) {
-  const Object placed = object.loaded.placed(tracked.placement);
+  ObjectPlayer player(tracked, object);
   const MetricsOptions options{median_scale(tracked, hands)};
   std::array<MetricsMeter, 2> meters{MetricsMeter(hands.meshes[0], options),
                                      MetricsMeter(hands.meshes[1], options)};
   for (std::size_t i = 0; i < tracked.frames.size() && i < corrected.frames.size(); ++i) {
+    const Object& now = player.at(i);
     for (std::size_t side = 0; side < meters.size(); ++side) {
       const auto& before = tracked.frames[i].hands[side];
       const auto& after = corrected.frames[i].hands[side];
       if (before && after && after->status != HandStatus::untracked) {
-        meters[side].add(tracked.frames[i].time_ns, before->pose, after->pose, placed);
+        meters[side].add(tracked.frames[i].time_ns, before->pose, after->pose, now);
       } else {
         meters[side].add_gap();
       }
@@ -170,8 +174,8 @@ CaseScore score(const SuiteCase& suite_case, const CaseRecording& tracked,
   CaseScore result{measure(tracked, object, hands, corrected), corrected.solve_us.quantile(0.5),
                    corrected.solve_us.quantile(0.99)};
   const bool presses = !suite_case.clip && suite_case.synth.stroke == Stroke::press;
-  const Object placed = object.loaded.placed(tracked.placement);
-  if (presses || pressed_path_m(tracked, placed) < kShortestStroke_m) {
+  const bool moves = !tracked.states.empty();
+  if (presses || moves || pressed_path_m(tracked, object) < kShortestStroke_m) {
     result.metrics.linkage_gain.reset();
     result.metrics.linkage_r.reset();
     result.metrics.linkage_lag_ms.reset();

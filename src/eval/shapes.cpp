@@ -8,6 +8,9 @@
 namespace nade {
 namespace {
 
+constexpr std::uint32_t kRoundSectors = 48;
+constexpr std::uint32_t kRoundRings = 24;  // even
+
 /// A point of a profile that is turned about the Y axis.
 struct ProfilePoint {
   double radius_m = 0.0;
@@ -81,6 +84,30 @@ TriangleSoup bowl_soup(const BowlSize& size) {
     add(size.inner_radius_m, size.rings - ring);
   }
   return revolved(profile, size.sectors);
+}
+
+TriangleSoup capsule_soup(double radius_m, double length_m) {
+  std::vector<ProfilePoint> profile;
+  for (std::uint32_t ring = 0; ring <= kRoundRings; ++ring) {
+    const double polar = std::numbers::pi * ring / kRoundRings;
+    const bool is_upper = 2 * ring > kRoundRings;
+    // The middle ring stands at both ends of a rod.
+    profile.push_back({radius_m * std::sin(polar),
+                       (is_upper ? 0.5 : -0.5) * length_m - radius_m * std::cos(polar)});
+    if (2 * ring == kRoundRings && length_m > 0.0) profile.push_back({radius_m, 0.5 * length_m});
+  }
+  return revolved(profile, kRoundSectors);
+}
+
+TriangleSoup cup_soup(double radius_m, double height_m, double wall_m) {
+  const double inner_m = radius_m - wall_m;
+  return revolved({{0.0, 0.0},
+                   {radius_m, 0.0},
+                   {radius_m, height_m},
+                   {inner_m, height_m},
+                   {inner_m, wall_m},
+                   {0.0, wall_m}},
+                  kRoundSectors);
 }
 
 MeshFile bowl_shape() { return {bowl_soup(), {{"bottom", {}}}}; }

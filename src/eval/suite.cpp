@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "nade/eval/press.h"
+#include "nade/eval/scene.h"
 #include "nade/eval/shapes.h"
 
 namespace nade {
@@ -254,7 +255,7 @@ Result<CaseRecording> make_stroke(const SuiteCase& suite_case, const SuiteObject
 bool SuiteCase::is_flat() const {
   constexpr double kFlatBall_m = 0.15;
   constexpr double kPressed_m = 0.01;
-  if ((clip ? press_m : synth.depth_m) < kPressed_m) return false;
+  if (scene || (clip ? press_m : synth.depth_m) < kPressed_m) return false;
   if (object == "plane" || object == "sphere") return true;
   constexpr std::string_view kBall = "sphere:";
   if (!object.starts_with(kBall)) return false;
@@ -264,6 +265,7 @@ bool SuiteCase::is_flat() const {
 }
 
 std::string SuiteCase::name() const {
+  if (scene) return "scene/" + scene->name;
   const std::string file = std::filesystem::path(object).filename().string();
   const std::string thing =
       synth.place.empty() || clip ? file : fmt::format("{}/{}", file, synth.place);
@@ -286,7 +288,19 @@ std::vector<SuiteCase> suite_cases(const SuiteOptions& options) {
       cases.push_back(std::move(pressed));
     }
   }
+  if (options.size == SuiteSize::quick) return cases;
+  for (const std::shared_ptr<const Scene>& scene : options.scenes) {
+    SuiteCase played;
+    played.scene = scene;
+    played.object = scene->object.empty() ? played.name() : scene->object;
+    cases.push_back(std::move(played));
+  }
   return cases;
+}
+
+Result<SuiteObject> load_case_object(const SuiteCase& suite_case) {
+  return suite_case.scene ? load_scene_object(*suite_case.scene)
+                          : load_suite_object(suite_case.object);
 }
 
 Result<SuiteObject> load_suite_object(const std::string& name) {
@@ -304,12 +318,47 @@ Result<SuiteObject> load_suite_object(const std::string& name) {
 }
 
 Result<CaseRecording> make_recording(const SuiteCase& suite_case, const SuiteObject& object) {
-  Result<CaseRecording> recording =
-      suite_case.clip ? read_clip(suite_case, object.loaded) : make_stroke(suite_case, object);
+  Result<CaseRecording> recording = suite_case.scene
+                                        ? make_scene_recording(*suite_case.scene, object)
+                                    : suite_case.clip ? read_clip(suite_case, object.loaded)
+                                                      : make_stroke(suite_case, object);
   if (!recording) return recording;
   std::string& header = recording->header.unknown_json;
   header = with_placing(header, {object.loaded.spec, recording->placement});
   return recording;
+}
+
+TriangleSoup stretched(TriangleSoup soup, const Vec3& stretch) {
+  for (Eigen::Vector3f& vertex : soup.vertices) {
+    vertex = vertex.cwiseProduct(stretch.cast<float>());
+  }
+  return soup;
+}
+
+ObjectPlayer::ObjectPlayer(const CaseRecording& recording, const SuiteObject& object)
+    : recording_(&recording), object_(&object), now_(object.loaded.placed(recording.placement)) {
+  const bool stretches = std::ranges::any_of(
+      recording.states, [](const ObjectState& state) { return state.stretch != Vec3::Ones(); });
+  if (!stretches || !object.loaded.soup) return;
+  auto mesh = MeshSurface::build(*object.loaded.soup, object.loaded.spec);
+  if (mesh) stretching_ = std::move(mesh).value();
+}
+
+const Object& ObjectPlayer::at(std::size_t frame) {
+  if (frame >= recording_->states.size()) return now_;
+  const ObjectState& state = recording_->states[frame];
+  if (!stretching_) {
+    now_ = object_->loaded.placed(state.placement);
+    return now_;
+  }
+  const std::vector<Eigen::Vector3f>& rest = object_->loaded.soup->vertices;
+  vertices_.resize(rest.size());
+  std::ranges::transform(rest, vertices_.begin(), [&](const Eigen::Vector3f& vertex) {
+    return Eigen::Vector3f(vertex.cwiseProduct(state.stretch.cast<float>()));
+  });
+  stretching_->refit(vertices_);
+  now_ = Object(*stretching_, composed(state.placement, object_->loaded.base));
+  return now_;
 }
 
 }  // namespace nade

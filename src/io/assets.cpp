@@ -20,7 +20,7 @@ Result<std::string> find_asset(std::string_view relative) {
     folder = program.parent_path().parent_path() / "share" / "nade";
   }
   const fs::path file = folder / relative;
-  if (fs::is_regular_file(file, error)) return file.string();
+  if (fs::exists(file, error)) return file.string();
   return Error{ErrorCode::not_found,
                fmt::format("{}: not found in {} (NADE_ASSETS names another folder to look in)",
                            relative, folder.string())};

@@ -29,7 +29,7 @@ struct DrawnHands {
 /// What a method may know beforehand of the hand that it corrects.
 struct SolverContext {
   const LoadedObject* object = nullptr;  ///< outlives the solver
-  Placement placement;                   ///< of the object
+  Placement placement;                   ///< of the object, at the beginning
   Handedness side = Handedness::right;
   /// The tracked hand's size over the drawn mesh's.
   double hand_scale = 1.0;
@@ -44,6 +44,8 @@ using HandSolver = std::function<CorrectedHand(const HandPose& tracked, const Ob
 struct ComparedMethod {
   std::string name;
   std::function<HandSolver(const SolverContext&)> make;
+  /// Whether it can follow an object that moves; else it is left out where one does.
+  bool follows_objects = true;
 };
 
 /// none, paper, nade and wrist-offset (nade/eval/wrist_offset.h).
@@ -72,8 +74,9 @@ struct CaseScore {
   std::optional<double> solve_us_p99;
 };
 
-/// Corrects and measures. The linkage along the surface is left out of press strokes, and where
-/// the tracked palm goes less than 50 mm along it while it lies in the solid: there is none.
+/// Corrects and measures. The linkage along the surface is left out of press strokes, where the
+/// object moves (a hand goes along with it), and where the tracked palm goes less than 50 mm along
+/// it while it lies in the solid: there is none.
 [[nodiscard]] CaseScore score(const SuiteCase& suite_case, const CaseRecording& tracked,
                               const SuiteObject& object, const DrawnHands& hands,
                               const ComparedMethod& method);

@@ -21,6 +21,14 @@ struct BowlSize {
 };
 [[nodiscard]] TriangleSoup bowl_soup(const BowlSize& size = {});
 
+/// A rod along Y about the origin with round ends, `length_m` >= 0 between their middles: a ball
+/// where that is 0. `radius_m` > 0.
+[[nodiscard]] TriangleSoup capsule_soup(double radius_m, double length_m);
+
+/// A beaker open to +Y whose foot stands on y = 0 about the origin; all > 0, the wall (and bottom)
+/// thinner than radius and height.
+[[nodiscard]] TriangleSoup cup_soup(double radius_m, double height_m, double wall_m);
+
 /// An open bowl to be stroked inside: "bottom".
 [[nodiscard]] MeshFile bowl_shape();
 

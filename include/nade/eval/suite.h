@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,6 +14,8 @@
 
 namespace nade {
 
+struct Scene;
+
 /// One stroke of the suite: what moves how over which object.
 struct SuiteCase {
   std::string object;  ///< of load_suite_object
@@ -22,10 +25,12 @@ struct SuiteCase {
   std::optional<std::string> clip;
   /// How deep the object is pressed against a clip's palms, metres.
   double press_m = 0.03;
+  /// A scene that takes the stroke's place (nade/eval/scene.h).
+  std::shared_ptr<const Scene> scene = nullptr;
 
   /// Whether methods are judged by it only and not tuned on it: strokes and tracker noise drawn
   /// from a third of all seeds.
-  [[nodiscard]] bool is_held_out() const { return !clip && synth.seed % 3 == 0; }
+  [[nodiscard]] bool is_held_out() const { return !clip && !scene && synth.seed % 3 == 0; }
 
   /// Whether a palm lies on something that it could lie flat on: a plane or a ball of 150 mm and
   /// more, pressed 10 mm and more.
@@ -48,6 +53,8 @@ struct SuiteOptions {
   std::vector<std::string> mesh_files = {};
   /// Recordings of real hands, each pressed onto plane, sphere and dog.
   std::vector<std::string> clips = {};
+  /// What hands do beside strokes; not in the quick suite.
+  std::vector<std::shared_ptr<const Scene>> scenes = {};
 };
 
 /// The cases, the same on every machine.
@@ -68,15 +75,47 @@ struct SuiteObject {
 /// Loads "bowl", "board", "box" (nade/eval/shapes.h), or what load_object knows.
 [[nodiscard]] Result<SuiteObject> load_suite_object(const std::string& name);
 
+/// What is touched in a case.
+[[nodiscard]] Result<SuiteObject> load_case_object(const SuiteCase& suite_case);
+
+/// An object in one frame.
+struct ObjectState {
+  Placement placement;
+  Vec3 stretch = Vec3::Ones();  ///< of its mesh, along its own axes about its origin
+};
+
+/// A mesh stretched so.
+[[nodiscard]] TriangleSoup stretched(TriangleSoup soup, const Vec3& stretch);
+
 /// A case as a recording.
 struct CaseRecording {
   RecordingHeader header;  ///< bears the object and its placing
-  Placement placement;     ///< of the object
+  Placement placement;     ///< of the object, at the beginning
   std::vector<RecordedFrame> frames;
+  std::vector<ObjectState> states;  ///< by frame; empty: the object stands still
 };
 
-/// Makes the stroke, or reads the clip and presses the object against it. `object` is the case's.
+/// Makes the stroke or plays the scene, or reads the clip and presses the object against it.
+/// `object` is the case's.
 [[nodiscard]] Result<CaseRecording> make_recording(const SuiteCase& suite_case,
                                                    const SuiteObject& object);
+
+/// An object from frame to frame of a recording: what a hand touches in each. One that stretches
+/// has a mesh of its own here, so that others may look at `object` meanwhile.
+class ObjectPlayer {
+ public:
+  /// Both must outlive the player.
+  ObjectPlayer(const CaseRecording& recording, const SuiteObject& object);
+
+  /// As it is in a frame, valid until the next call.
+  [[nodiscard]] const Object& at(std::size_t frame);
+
+ private:
+  const CaseRecording* recording_;
+  const SuiteObject* object_;
+  std::unique_ptr<MeshSurface> stretching_;
+  std::vector<Eigen::Vector3f> vertices_;
+  Object now_;
+};
 
 }  // namespace nade
