@@ -256,4 +256,27 @@ TEST_F(RenderCommand, FigureTitleEndsBeforeThePictures) {
   EXPECT_TRUE(sheets[0] == sheets[1]) << "what tells the names apart is cut off";
 }
 
+/// Two methods side by side, and what is which only in the key.
+TEST_F(RenderCommand, PairsToBeComparedBlind) {
+  const std::string one = "--count 2 --scenes none --filter 'plane line 0.1 m/s'";
+  const Ran ran = nade("figure --pairs asked " + one);
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  for (const char* const name : {"pair_001.png", "pair_002.png"}) {
+    EXPECT_EQ(png_size(path(std::string("asked/") + name)).width, 1328u) << name;
+  }
+  EXPECT_EQ(read_file(path("asked/answers.csv")), "pair,answer\npair_001,\npair_002,\n");
+  const std::string key = read_file(path("asked/key.csv"));
+  EXPECT_TRUE(key.starts_with("pair,case,time_s,left,right\npair_001,plane line")) << key;
+  EXPECT_NE(key.find("paper"), std::string::npos);
+  const std::string page = read_file(path("asked/index.html"));
+  EXPECT_NE(page.find("pair_002.png"), std::string::npos);
+  EXPECT_EQ(page.find("paper"), std::string::npos) << "blind";
+  ASSERT_EQ(nade("figure --pairs again " + one).status, 0);
+  EXPECT_EQ(read_file(path("again/key.csv")), key) << "the same for a seed";
+  EXPECT_EQ(nade("figure --pairs no --method nade").status, 2);
+  EXPECT_EQ(nade("figure --pairs no -o no.png").status, 2);
+  EXPECT_EQ(nade("figure --pairs no --filter nothing-like-it").status, 2);
+  EXPECT_EQ(nade("figure -o no.png --count 3").status, 2);
+}
+
 }  // namespace

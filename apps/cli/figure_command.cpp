@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +12,12 @@
 #include <utility>
 #include <vector>
 
+#include "bench_choice.h"
 #include "commands.h"
+#include "figure_pairs.h"
 #include "figure_sheet.h"
 #include "nade/draw/image.h"
+#include "nade/eval/suite.h"
 #include "nade/eval/synth.h"
 #include "number_options.h"
 #include "spooled_input.h"
@@ -26,9 +30,14 @@ struct FigureArguments {
   ShowArguments show;  ///< `recording` empty: the bundled strokes
   std::string name;    ///< of the recording, as the person gave it
   std::string output;
-  std::vector<std::string> methods{"nade"};
+  std::vector<std::string> methods;
   std::optional<std::size_t> frame;
   std::optional<double> time_s;
+  std::string pairs;  ///< a folder; empty: a sheet is drawn
+  std::size_t count = 40;
+  std::uint64_t seed = 1;
+  std::string filter;
+  std::string scenes;
 };
 
 /// Where the frames of a row come from, one after another.
@@ -209,7 +218,37 @@ Status run_on(const FigureArguments& arguments) {
   return draw::save_png(arguments.output, *sheet);
 }
 
+/// Pairs for people to choose from, in place of a sheet.
+Status run_pairs(const FigureArguments& arguments) {
+  const std::string methods = arguments.methods.empty()
+                                  ? "paper,nade"
+                                  : fmt::format("{}", fmt::join(arguments.methods, ","));
+  Result<std::vector<ComparedMethod>> chosen = chosen_methods(methods);
+  if (!chosen) return chosen.error();
+  if (chosen->size() != 2) {
+    return misuse(fmt::format("--method '{}': expected two methods to compare in pairs", methods));
+  }
+  Result<std::vector<std::shared_ptr<const Scene>>> scenes = chosen_scenes(arguments.scenes);
+  if (!scenes) return scenes.error();
+  PairsPlan plan{suite_cases({.scenes = std::move(scenes).value()}), std::move(chosen).value(),
+                 arguments.count, arguments.seed, arguments.pairs};
+  std::erase_if(plan.cases, [&](const SuiteCase& suite_case) {
+    return suite_case.name().find(arguments.filter) == std::string::npos;
+  });
+  if (plan.cases.empty()) {
+    return misuse(fmt::format("--filter '{}': no case has that in its name", arguments.filter));
+  }
+  const Result<DrawnHands> hands = load_drawn_hands();
+  if (!hands) return hands.error();
+  Result<Studio> studio = open_studio(hands->meshes);
+  if (!studio) return studio.error();
+  return draw_pairs(plan, *hands, *studio);
+}
+
 Status run_figure(FigureArguments arguments) {
+  if (!arguments.pairs.empty()) return run_pairs(arguments);
+  if (arguments.output.empty()) return misuse("--output is required");
+  if (arguments.methods.empty()) arguments.methods = {"nade"};
   const ObjectOptions& object = arguments.show.object;
   const bool own = !arguments.show.recording.empty();
   if (!own && (object.object || object.at || object.turn || object.scale ||
@@ -231,6 +270,36 @@ Status run_figure(FigureArguments arguments) {
   return named(run_on(arguments), *recording);
 }
 
+void add_pairs_options(CLI::App& command, FigureArguments& arguments) {
+  CLI::Option* const pairs =
+      command
+          .add_option("--pairs", arguments.pairs,
+                      "in place of a sheet: pairs of pictures by two methods, to be compared blind")
+          ->type_name("DIR");
+  for (const char* const other : {"input", "--output", "--frame", "--time", "--object", "--at",
+                                  "--turn", "--scale", "--press", "--hand-left", "--hand-right"}) {
+    pairs->excludes(command.get_option(other));
+  }
+  command.add_option("--count", arguments.count, "how many pairs (default 40)")
+      ->type_name("N")
+      ->transform(whole_number_in(1, 1000))
+      ->needs(pairs);
+  command
+      .add_option("--seed", arguments.seed,
+                  "of the cases, the moments and which is left (default 1)")
+      ->type_name("N")
+      ->transform(whole_number())
+      ->needs(pairs);
+  command.add_option("--filter", arguments.filter, "only bench cases with this in their names")
+      ->type_name("TEXT")
+      ->needs(pairs);
+  command
+      .add_option("--scenes", arguments.scenes,
+                  "a folder of scenes, or none (default those that come with nade)")
+      ->type_name("DIR")
+      ->needs(pairs);
+}
+
 }  // namespace
 
 void add_figure(CLI::App& app, Action& action) {
@@ -242,14 +311,14 @@ void add_figure(CLI::App& app, Action& action) {
                    "a recording of your own; - is stdin (default strokes of plane, sphere and dog)")
       ->type_name("IN");
   command->add_option("-o,--output", arguments->output, "the picture to write")
-      ->type_name("SHEET.png")
-      ->required();
+      ->type_name("SHEET.png");
   command
-      ->add_option("--method", arguments->methods,
-                   "what column (iii) shows; several, parted by commas, give several columns")
+      ->add_option(
+          "--method", arguments->methods,
+          "what column (iii) shows (default nade); several, parted by commas, give several "
+          "columns. Of pairs the two to compare (default paper,nade)")
       ->type_name(method_names())
-      ->delimiter(',')
-      ->capture_default_str();
+      ->delimiter(',');
   command->add_option("--frame", arguments->frame, "of this frame, from 0 (default the deepest)")
       ->type_name("N")
       ->transform(whole_number());
@@ -257,6 +326,7 @@ void add_figure(CLI::App& app, Action& action) {
       ->type_name("S")
       ->check(number_in(0.0, 1e6));
   add_show_options(*command, arguments->show);
+  add_pairs_options(*command, *arguments);
   command->callback(
       [&action, arguments] { action = [arguments] { return run_figure(*arguments); }; });
 }
