@@ -176,6 +176,26 @@ TEST(Metrics, HandThatGoesRoundABoardsEdgeIsNotInIt) {
   EXPECT_EQ(metrics.pressing_frames, 0U);
 }
 
+/// It was taken for pressed in from below, the deeper the higher it went.
+TEST(Metrics, FingerThatComesBackThroughABoardToItsHandIsOut) {
+  const Board board(0.01F);
+  const Metrics metrics = measure_on(board.object, [](double seconds) {
+    HandPose hand = at_height(0.05);
+    const DigitJoints index = joints_of(Digit::index);
+    // Around the edge to below the palm, and up.
+    const double aside_m = std::max(0.0, 0.4 - std::max(0.0, seconds - 0.2));
+    const double down_m =
+        0.07 * (std::min(1.0, seconds / 0.1) - std::clamp((seconds - 0.7) / 0.1, 0.0, 1.0));
+    for (std::size_t i = index_of(index.metacarpal); i <= index_of(index.tip); ++i) {
+      hand.joints[i].position += Vec3(aside_m, -down_m, 0.0);
+    }
+    return Pair{hand, hand};
+  });
+  EXPECT_EQ(metrics.frames, 90U);
+  EXPECT_GT(metrics.pressing_frames, 0U);
+  EXPECT_LT(metrics.pressing_frames, 10U);
+}
+
 TEST(Metrics, HandInTheAirPressesNothing) {
   const Metrics metrics = measure(100, [](double seconds) {
     const HandPose hand = shifted(at_height(0.3), wander(seconds));

@@ -196,6 +196,7 @@ SkinReading SkinProbe::read(const HandPose& hand, const Object& object) {
     return a.distance_m < b.distance_m;
   });
   for (const MiddleReading& middle : middles_) read_cluster(middle, object, reading);
+  walls_.follow_palm(hand[Joint::palm].position, object);
   for (const MiddleReading& middle : middles_) follow_walls(middle, hand, object, reading);
   return reading;
 }

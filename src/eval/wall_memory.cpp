@@ -29,9 +29,17 @@ std::optional<EnteredSide> side_above(const Object& object, const Vec3& point, c
 
 void WallMemory::forget() {
   for (Entry& entry : entries_) entry = {};
+  palm_ = {};
 }
 
-void WallMemory::cross(const Object& object, const Vec3& from, const Vec3& to, Entry& entry) {
+bool WallMemory::is_with_hand(const Object& object, const RayHit& out) const {
+  if (palm_.entered) return out.normal.dot(turned(object, palm_.normal_object)) > 0.0;
+  const Vec3 from = out.point + kPastHit_m * out.normal;
+  const Vec3 way = object.placement().to_world(palm_.last_object) - from;
+  return out.normal.dot(way) > 0.0 && !object.first_hit({from, way.stableNormalized(), way.norm()});
+}
+
+void WallMemory::cross(const Object& object, const Vec3& from, const Vec3& to, Entry& entry) const {
   // More walls than these are not crossed from one frame to the next.
   constexpr int kMostHits = 8;
   const Vec3 direction = (to - from).stableNormalized();
@@ -44,17 +52,25 @@ void WallMemory::cross(const Object& object, const Vec3& from, const Vec3& to, E
     if (!hit->from_inside && !entry.entered) {
       entry.entered = true;
       entry.normal_object = object.placement().pose.rotation.conjugate() * hit->normal;
-    } else if (hit->from_inside && hit->normal.dot(normal) > 0.0) {
-      entry.entered = false;
+    } else if (hit->from_inside) {
+      const bool back = hit->normal.dot(normal) > 0.0;
+      if (back || (&entry != &palm_ && is_with_hand(object, *hit))) entry.entered = false;
     }
     at = hit->point + kPastHit_m * direction;
     left_m -= hit->distance + kPastHit_m;
   }
 }
 
+void WallMemory::follow_palm(const Vec3& now, const Object& object) {
+  static_cast<void>(follow(palm_, {now, now, 0.0}, object));
+}
+
 std::optional<double> WallMemory::follow(std::size_t vertex, const Step& step,
                                          const Object& object) {
-  Entry& entry = entries_[vertex];
+  return follow(entries_[vertex], step, object);
+}
+
+std::optional<double> WallMemory::follow(Entry& entry, const Step& step, const Object& object) {
   const Vec3& now = step.now;
   const Placement& placement = object.placement();
   const Vec3 from = entry.followed ? placement.to_world(entry.last_object) : step.bone;

@@ -26,13 +26,17 @@ struct EnteredSide {
                                                     const Vec3& up);
 
 /// Through which walls the vertices of a skin have gone. A closest point knows no more than the
-/// nearer side, which of a board that is pressed through is the wrong one.
+/// nearer side, which of a board that is pressed through is the wrong one. A finger that went
+/// around an edge, and comes back through the wall to its hand, is out.
 class WallMemory {
  public:
   explicit WallMemory(std::size_t vertices) : entries_(vertices) {}
 
   /// The skin is not followed into the next frame.
   void forget();
+
+  /// The palm in the next frame, in the world; before its vertices.
+  void follow_palm(const Vec3& now, const Object& object);
 
   /// A vertex in the next frame, in the world.
   struct Step {
@@ -51,9 +55,13 @@ class WallMemory {
     Vec3 last_object = Vec3::Zero();     ///< where it was, in the object's frame
     Vec3 normal_object = Vec3::UnitY();  ///< of the side that was entered
   };
-  static void cross(const Object& object, const Vec3& from, const Vec3& to, Entry& entry);
+  [[nodiscard]] std::optional<double> follow(Entry& entry, const Step& step, const Object& object);
+  void cross(const Object& object, const Vec3& from, const Vec3& to, Entry& entry) const;
+  /// Whether what comes out there is where the hand is.
+  [[nodiscard]] bool is_with_hand(const Object& object, const RayHit& out) const;
 
   std::vector<Entry> entries_;
+  Entry palm_;
 };
 
 }  // namespace nade
