@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "nade/assert.h"
+#include "proxy/proxy_hand.h"
 #include "query_steps.h"
 #include "ramps.h"
 
@@ -141,9 +142,13 @@ HandCorrector::HandCorrector(const CorrectorOptions& options) : options_(options
   if (options.method != Method::nade) return;
   for (const Handedness side : {Handedness::left, Handedness::right}) {
     NADE_ASSERT(flesh_of(side).side == side && flesh_of(side).hand_length_m > 0.0);
-    settle_memory_[index_of(side)] = settle_memory(flesh_of(side));
+    proxies_[index_of(side)] = std::make_unique<ProxyHand>(
+        flesh_of(side), options.tuning ? *options.tuning : ProxyTuning{});
   }
 }
+HandCorrector::HandCorrector(HandCorrector&&) noexcept = default;
+HandCorrector& HandCorrector::operator=(HandCorrector&&) noexcept = default;
+HandCorrector::~HandCorrector() = default;
 
 void HandCorrector::set_settle(const SettleOptions& settle) noexcept {
   NADE_ASSERT(settle.softness_m >= 0.0 && settle.softness_m <= kSoftest_m);
@@ -156,7 +161,7 @@ void HandCorrector::set_settle(const SettleOptions& settle) noexcept {
 
 void HandCorrector::reset() noexcept {
   contact_memory_ = {};
-  for (SettleMemory& memory : settle_memory_) forget_hand(memory);
+  forget_proxies();
   last_.reset();
   release_start_ns_.reset();
   hand_length_m_ = 0.0;
@@ -188,7 +193,7 @@ void HandCorrector::correct(const HandPose& tracked, const Object& object,
   start_frame(tracked, time_ns);
   const detail::StepLimit limit(detail::kMostFrameSteps);
   if (options_.method == Method::paper) correct_by_paper(tracked, object, time_ns);
-  if (options_.method == Method::nade) settle(tracked, object, time_ns);
+  if (options_.method == Method::nade) follow_proxy(tracked, object, time_ns);
   if (!limit.is_used_up()) return;
   // What was found before it was used up and what was not do not make a hand.
   reset();
@@ -216,21 +221,26 @@ void HandCorrector::correct_by_paper(const HandPose& tracked, const Object& obje
   release(tracked, {seated.correction, laid.bend}, time_ns);
 }
 
-void HandCorrector::settle(const HandPose& tracked, const Object& object,
-                           std::int64_t time_ns) noexcept {
-  const HandFlesh& flesh = flesh_of(tracked.side);
+void HandCorrector::follow_proxy(const HandPose& tracked, const Object& object,
+                                 std::int64_t time_ns) noexcept {
   const double since_last_s = last_ ? seconds(last_->time_ns, time_ns) : 0.0;
-  const SettledHand settled =
-      settle_hand(tracked, flesh, hand_length_m_ / flesh.hand_length_m, object, since_last_s,
-                  options_.settle, settle_memory_[index_of(tracked.side)]);
-  result_.pose = settled.hand;
-  result_.contacts = settled.contacts;
-  if (settled.touches) {
+  const double scale = hand_length_m_ / flesh_of(tracked.side).hand_length_m;
+  const ProxyResult proxy = proxies_[index_of(tracked.side)]->update(tracked, scale, object,
+                                                                     since_last_s, options_.settle);
+  result_.pose = proxy.hand;
+  result_.contacts = proxy.contacts;
+  if (proxy.touches) {
     result_.status = HandStatus::corrected;
-  } else if (settled.corrected) {
+  } else if (proxy.corrected) {
     result_.status = HandStatus::released;
   }
   last_ = Frame{tracked, {}, time_ns};
+}
+
+void HandCorrector::forget_proxies() noexcept {
+  for (const std::unique_ptr<ProxyHand>& proxy : proxies_) {
+    if (proxy) proxy->forget();
+  }
 }
 
 void HandCorrector::start_frame(const HandPose& tracked, std::int64_t time_ns) noexcept {
@@ -242,7 +252,7 @@ void HandCorrector::start_frame(const HandPose& tracked, std::int64_t time_ns) n
                                    : std::max(options_.release_s, kShortestGap_s);
   if (last_ && seconds(last_->time_ns, time_ns) > longest_gap_s) {
     contact_memory_ = {};
-    for (SettleMemory& memory : settle_memory_) memory.last.tracked.reset();
+    forget_proxies();
     last_.reset();
     release_start_ns_.reset();
   }

@@ -5,7 +5,9 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "nade/assert.h"
 
@@ -22,6 +24,10 @@ constexpr int kDirections = 24;
 /// A mesh with too many of them is thinned to vertices so far apart, or by this factor farther.
 constexpr double kFinest_m = 0.002;
 constexpr double kCoarser = 1.1;
+/// Of the pads that one bone leads, those with a patch of palmar skin are so far apart.
+constexpr double kPatchesApart_m = 0.009;
+/// A patch with less palmar skin than this is left out.
+constexpr double kSmallestPatchM2 = 5e-6;
 
 using Indices = std::vector<std::size_t>;
 using JointWeights = std::array<double, kJointCount>;
@@ -130,8 +136,15 @@ Indices outermost(const HandMesh& mesh, const Indices& vertices) {
   return result;
 }
 
+/// A hand cut into pads, and the vertex of each skin point.
+struct CutHand {
+  HandFlesh flesh;
+  Indices vertices;
+};
+
 void add_pad(const HandMesh& mesh, const Indices& vertices, std::optional<Part> part,
-             HandFlesh& flesh) {
+             CutHand& cut) {
+  HandFlesh& flesh = cut.flesh;
   Vec3 middle = Vec3::Zero();
   JointWeights weights{};
   const double share = 1.0 / static_cast<double>(vertices.size());
@@ -148,12 +161,14 @@ void add_pad(const HandMesh& mesh, const Indices& vertices, std::optional<Part> 
     const Vec3 position = position_of(mesh, vertex);
     pad.radius_m = std::max(pad.radius_m, (position - middle).norm());
     flesh.skin.push_back(attach(mesh.bind, position, weights_of(mesh, vertex)));
+    cut.vertices.push_back(vertex);
   }
   pad.count = static_cast<std::uint32_t>(flesh.skin.size()) - pad.first;
 }
 
-HandFlesh cut(const HandMesh& mesh, const Indices& kept) {
-  HandFlesh flesh;
+CutHand cut_up(const HandMesh& mesh, const Indices& kept) {
+  CutHand cut;
+  HandFlesh& flesh = cut.flesh;
   flesh.side = mesh.side;
   flesh.hand_length_m = hand_length(mesh.bind);
   const SkinDepths depths = measure_skin_depths(mesh);
@@ -181,19 +196,116 @@ HandFlesh cut(const HandMesh& mesh, const Indices& kept) {
   for (const auto& [group, vertices] : groups) {
     std::optional<Part> part;
     if (group.part >= 0) part = part_at(static_cast<std::size_t>(group.part));
-    for (const Indices& piece : split(mesh, vertices)) add_pad(mesh, piece, part, flesh);
+    for (const Indices& piece : split(mesh, vertices)) add_pad(mesh, piece, part, cut);
   }
-  return flesh;
+  return cut;
+}
+
+/// Palmar skin as it is gathered for a pad.
+struct PatchSum {
+  Vec3 moment = Vec3::Zero();
+  double area_m2 = 0.0;
+  JointWeights weights{};
+  std::array<double, kSkinRegionCount> by_region{};
+};
+
+std::size_t nearest_pad(const HandFlesh& flesh, const Indices& pads, const std::vector<Vec3>& skin,
+                        const Vec3& point) {
+  std::size_t nearest = pads.front();
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::size_t p : pads) {
+    const FleshPad& pad = flesh.pads[p];
+    for (std::uint32_t k = pad.first; k < pad.first + pad.count; ++k) {
+      const double distance = (skin[k] - point).squaredNorm();
+      if (distance >= least) continue;
+      least = distance;
+      nearest = p;
+    }
+  }
+  return nearest;
+}
+
+/// Of some pads, by number, each takes the palmar skin that is nearest to it.
+std::vector<PatchSum> gather_patches(const HandMesh& mesh, const SkinMap& skin,
+                                     const std::vector<Vec3>& places, const HandFlesh& flesh,
+                                     const Indices& pads) {
+  std::vector<PatchSum> sums(flesh.pads.size());
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const double area_m2 = skin.area_m2[i];
+    if (!skin.is_palmar(i) || area_m2 == 0.0) continue;
+    const Vec3 at = position_of(mesh, i);
+    PatchSum& sum = sums[nearest_pad(flesh, pads, places, at)];
+    sum.moment += area_m2 * at;
+    sum.area_m2 += area_m2;
+    sum.by_region[static_cast<std::size_t>(skin.region[i])] += area_m2;
+    const JointWeights weights = weights_of(mesh, i);
+    for (std::size_t j = 0; j < kJointCount; ++j) sum.weights[j] += area_m2 * weights[j];
+  }
+  return sums;
+}
+
+/// Pads well apart, those with the most palmar skin first.
+Indices pads_apart(const HandMesh& mesh, const HandFlesh& flesh,
+                   const std::vector<PatchSum>& sums) {
+  const auto middle_of = [&](std::size_t p) {
+    const FleshPoint& middle = flesh.pads[p].middle;
+    return mesh.bind.joints[middle.joints[0]].apply(middle.local[0]);
+  };
+  Indices by_area;
+  for (std::size_t p = 0; p < sums.size(); ++p) {
+    if (sums[p].area_m2 >= kSmallestPatchM2) by_area.push_back(p);
+  }
+  std::stable_sort(by_area.begin(), by_area.end(),
+                   [&](std::size_t a, std::size_t b) { return sums[a].area_m2 > sums[b].area_m2; });
+  Indices apart;
+  for (const std::size_t p : by_area) {
+    const bool crowded = std::any_of(apart.begin(), apart.end(), [&](std::size_t other) {
+      return flesh.pads[p].middle.joints[0] == flesh.pads[other].middle.joints[0] &&
+             (middle_of(p) - middle_of(other)).norm() < kPatchesApart_m;
+    });
+    if (!crowded) apart.push_back(p);
+  }
+  return apart;
+}
+
+/// Gives the palmar skin to pads well apart, each what is nearest to it.
+void add_patches(const HandMesh& mesh, const SkinMap& skin, const std::vector<Vec3>& places,
+                 HandFlesh& flesh) {
+  Indices all(flesh.pads.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const Indices apart = pads_apart(mesh, flesh, gather_patches(mesh, skin, places, flesh, all));
+  if (apart.empty()) return;
+  const std::vector<PatchSum> sums = gather_patches(mesh, skin, places, flesh, apart);
+  for (const std::size_t p : apart) {
+    const PatchSum& sum = sums[p];
+    if (sum.area_m2 < kSmallestPatchM2) continue;
+    const auto most = std::max_element(sum.by_region.begin(), sum.by_region.end());
+    flesh.pads[p].palmar =
+        PalmarPatch{attach(mesh.bind, sum.moment / sum.area_m2, sum.weights), sum.area_m2,
+                    static_cast<SkinRegion>(most - sum.by_region.begin())};
+  }
+}
+
+/// How deep the flesh is, and where the palmar skin.
+void add_skin(const HandMesh& mesh, CutHand& cut) {
+  const SkinMap skin = measure_skin(mesh);
+  std::vector<Vec3> places;
+  for (const std::size_t vertex : cut.vertices) {
+    places.push_back(position_of(mesh, vertex));
+    cut.flesh.depth_m.push_back(skin.flesh_depth_m[vertex]);
+  }
+  add_patches(mesh, skin, places, cut.flesh);
 }
 
 }  // namespace
 
 HandFlesh measure_flesh(const HandMesh& mesh) {
-  HandFlesh flesh = cut(mesh, spread_vertices(mesh, 0.0));
-  for (double apart_m = kFinest_m; flesh.skin.size() > kMostSkinPoints; apart_m *= kCoarser) {
-    flesh = cut(mesh, spread_vertices(mesh, apart_m));
+  CutHand cut = cut_up(mesh, spread_vertices(mesh, 0.0));
+  for (double apart_m = kFinest_m; cut.flesh.skin.size() > kMostSkinPoints; apart_m *= kCoarser) {
+    cut = cut_up(mesh, spread_vertices(mesh, apart_m));
   }
-  return flesh;
+  add_skin(mesh, cut);
+  return std::move(cut.flesh);
 }
 
 }  // namespace nade

@@ -44,6 +44,7 @@ HandFlesh make_generic_flesh(Handedness side) {
   flesh.side = side;
   flesh.hand_length_m = hand_length(bind);
   for (const detail::FleshRow& row : detail::kSkin) flesh.skin.push_back(attached(row, bind));
+  for (const std::int16_t depth : detail::kSkinDepths) flesh.depth_m.push_back(1e-5 * depth);
   std::uint32_t first = 0;
   for (const detail::PadRow& row : detail::kPads) {
     FleshPad& pad = flesh.pads.emplace_back();
@@ -51,6 +52,10 @@ HandFlesh make_generic_flesh(Handedness side) {
     pad.first = first;
     pad.count = static_cast<std::uint32_t>(row.count);
     if (row.part >= 0) pad.part = part_at(static_cast<std::size_t>(row.part));
+    if (row.area_mm2 > 0) {
+      pad.palmar = PalmarPatch{attached(row.palmar, bind), 1e-6 * row.area_mm2,
+                               static_cast<SkinRegion>(row.region)};
+    }
     const Vec3 middle = position_in(bind, pad.middle);
     for (std::uint32_t k = first; k < first + pad.count; ++k) {
       pad.radius_m = std::max(pad.radius_m, (position_in(bind, flesh.skin[k]) - middle).norm());

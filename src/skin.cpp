@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include "nade/assert.h"
 
@@ -50,6 +51,20 @@ class PalmMap {
   Vec3 middle_;
   Vec3 aside_;
 };
+
+/// Vertices at one place, as on a seam, are as deep as the deepest of them.
+void join_depths(const HandMesh& mesh, std::vector<double>& depth_m) {
+  std::map<std::array<float, 3>, double> deepest;
+  const auto place_of = [&](std::size_t i) {
+    const Eigen::Vector3f& at = mesh.vertices[i];
+    return std::array{at.x(), at.y(), at.z()};
+  };
+  for (std::size_t i = 0; i < depth_m.size(); ++i) {
+    double& depth = deepest[place_of(i)];
+    depth = std::max(depth, depth_m[i]);
+  }
+  for (std::size_t i = 0; i < depth_m.size(); ++i) depth_m[i] = deepest[place_of(i)];
+}
 
 Joint heaviest_bone(const HandMesh& mesh, std::size_t vertex) {
   std::array<double, kJointCount> weights{};
@@ -127,6 +142,7 @@ SkinMap measure_skin(const HandMesh& mesh) {
         kThinnest_m + smoothstep(0.0, kFacing, facing) *
                           (kMostFlesh_m[static_cast<std::size_t>(region)] - kThinnest_m));
   }
+  join_depths(mesh, skin.flesh_depth_m);
   skin.area_m2.assign(count, 0.0);
   for (const auto& triangle : mesh.triangles) {
     const Vec3 corner = mesh.vertices[triangle[0]].cast<double>();

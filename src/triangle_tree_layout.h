@@ -23,7 +23,7 @@ inline constexpr float kDipoleFar = 2.5F;
 
 /// Nodes and blocks that a query looks at, whatever the mesh: it keeps a frame's time where
 /// triangles go through each other by the thousand. A surface takes a few dozen.
-inline constexpr std::uint32_t kMostSteps = 512;
+inline constexpr std::uint32_t kMostSteps = 2048;
 /// The same for `winding`, which looks at everything around: up to some hundred of a good mesh.
 inline constexpr std::uint32_t kMostWindingSteps = 1024;
 

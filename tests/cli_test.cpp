@@ -318,7 +318,7 @@ TEST_F(Cli, ALivingObjectIsMeasuredAsItWasInEachFrame) {
   for (const std::string tracked : {"in.jsonl", "late.jsonl"}) {
     const Ran ran = nade("measure " + tracked + " out.jsonl --json -");
     ASSERT_EQ(ran.status, 0) << ran.err;
-    const std::string key = "\"penetration_max_mm\": ";
+    const std::string key = "\"excess_max_mm\": ";
     const std::size_t at = ran.out.find(key);
     ASSERT_NE(at, std::string::npos) << ran.out;
     EXPECT_LT(std::stod(ran.out.substr(at + key.size())), 1.0) << tracked;

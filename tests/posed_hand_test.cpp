@@ -1,4 +1,4 @@
-#include "posed_hand.h"
+#include "proxy/posed_hand.h"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 #include <array>
 #include <random>
 
-#include "arrow_matrix.h"
 #include "nade/flesh.h"
-#include "settle_pace.h"
-#include "settle_step.h"
+#include "proxy/arrow_matrix.h"
+#include "proxy/inertia.h"
+#include "proxy/step.h"
 #include "support/sample_hand.h"
 
 // The derivatives that the solver is built on, against central differences, and its matrix against
@@ -26,20 +26,17 @@ struct Fixture {
   explicit Fixture(Handedness side)
       : model(measure_model(test::placed_hand(test::sample_hand(side), Vec3(0.1, 0.2, -0.3),
                                               Quat(0.8, 0.3, -0.4, 0.3).normalized()),
-                            1.05)),
-        frame(
-            surface_frame(Vec3(0.3, 0.9, -0.2).normalized(), model.tracked[Joint::palm].rotation)) {
+                            1.05)) {
     HandFreedoms away = HandFreedoms::Constant(0.15);
     away.head<3>() = Vec3(0.01, -0.02, 0.015);
-    correction = after_step({}, away, frame, model.ranges);
+    correction = after_step({}, away, model.ranges);
   }
 
   [[nodiscard]] PosedHand at(const HandFreedoms& step) const {
-    return pose_hand(model, after_step(correction, step, frame, model.ranges));
+    return pose_hand(model, after_step(correction, step, model.ranges));
   }
 
   HandModel model;
-  Eigen::Matrix3d frame;
   Correction correction;
 };
 
@@ -89,7 +86,7 @@ TEST_P(PosedHandOf, RowsAreTheDerivativesOfPositions) {
   const PosedHand posed = hand.at(HandFreedoms::Zero());
   const Vec3 direction = Vec3(-0.4, 0.7, 0.5).normalized();
   for (const FleshPoint& point : points_on_bones()) {
-    const HandFreedoms row = dense_row(motion_along(posed, point, direction, hand.frame));
+    const HandFreedoms row = dense_row(motion_along(posed, point, direction));
     for (Eigen::Index f = 0; f < kHandFreedoms; ++f) {
       const Vec3 ahead = hand.at(one(f, kStep)).flesh.position(point);
       const Vec3 behind = hand.at(one(f, -kStep)).flesh.position(point);
@@ -114,33 +111,6 @@ TEST_P(PosedHandOf, JointMotionsAreTheDerivativesOfJoints) {
   }
 }
 
-/// How a row's levers change where its direction stays: on a plane.
-TEST_P(PosedHandOf, LeverGrowthIsTheSecondDerivative) {
-  const Fixture hand(GetParam());
-  const PosedHand posed = hand.at(HandFreedoms::Zero());
-  const Vec3 direction = Vec3(-0.4, 0.7, 0.5).normalized();
-  for (const FleshPoint& point : points_on_bones()) {
-    const ContactRow row = motion_along(posed, point, direction, hand.frame);
-    const LeverGrowth growth = lever_growth(posed, row, hand.frame);
-    const auto change = [&](Eigen::Index f) -> HandFreedoms {
-      return (dense_row(motion_along(hand.at(one(f, kStep)), point, direction, hand.frame)) -
-              dense_row(motion_along(hand.at(one(f, -kStep)), point, direction, hand.frame))) /
-             (2.0 * kStep);
-    };
-    for (Eigen::Index f = 0; f < 6; ++f) {
-      EXPECT_NEAR(growth.wrist[f], change(f)[f], 1e-7)
-          << "joint " << int(point.joints[0]) << ", freedom " << f;
-    }
-    if (!row.digit) continue;
-    const Eigen::Index first = first_freedom(index_of(*row.digit));
-    for (Eigen::Index f = 0; f < 4; ++f) {
-      const Eigen::Vector4d grown = change(first + f).segment<4>(first);
-      EXPECT_LT((growth.bend.col(f) - grown).norm(), 1e-7)
-          << "joint " << int(point.joints[0]) << ", bend " << f;
-    }
-  }
-}
-
 /// Inertia is half of stiffness times the squares of the joints' ways from where they coast to.
 TEST_P(PosedHandOf, InertiaIsTheJointsSquares) {
   const Fixture hand(GetParam());
@@ -150,13 +120,13 @@ TEST_P(PosedHandOf, InertiaIsTheJointsSquares) {
     coasted[i] = posed.flesh.origin(i) + 0.001 * Vec3(1.0, double(i % 3) - 1.0, -0.5);
   }
   Springs springs;
-  add_inertia(coasted, 300.0, posed, hand.frame, springs);
+  add_inertia(coasted, 300.0, posed, springs);
 
   Dense stiffness = Dense::Zero();
   HandFreedoms force = HandFreedoms::Zero();
   for (std::size_t i = 0; i < kJointCount; ++i) {
     for (const Vec3& axis : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY()), Vec3(Vec3::UnitZ())}) {
-      const HandFreedoms row = dense_row(motion_along(posed, joint_point(i), axis, hand.frame));
+      const HandFreedoms row = dense_row(motion_along(posed, joint_point(i), axis));
       stiffness += 300.0 * row * row.transpose();
       force += 300.0 * axis.dot(coasted[i] - posed.flesh.origin(i)) * row;
     }

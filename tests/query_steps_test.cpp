@@ -84,7 +84,7 @@ TEST(QuerySteps, ASurfaceTakesFew) {
 }
 
 TEST(QuerySteps, ATangleTakesNoMoreThanAllowed) {
-  const MostSteps most = most_steps(tangle(20'000));
+  const MostSteps most = most_steps(tangle(60'000));
   EXPECT_EQ(most.ray, kMostSteps);
   EXPECT_EQ(most.closest, kMostSteps);
   EXPECT_GT(most.winding, kMostWindingSteps / 2);

@@ -27,6 +27,12 @@ std::string row_of(const FleshPoint& point, const HandMesh& mesh) {
   return text + "}";
 }
 
+std::string palmar_of(const nade::FleshPad& pad, const HandMesh& mesh) {
+  if (!pad.palmar) return "0, 0, {{}}";
+  return fmt::format("{}, {}, {{{}}}", std::lround(1e6 * pad.palmar->area_m2),
+                     static_cast<int>(pad.palmar->region), row_of(pad.palmar->middle, mesh));
+}
+
 void print(const HandFlesh& flesh, const HandMesh& mesh) {
   fmt::print(
       "#pragma once\n\n"
@@ -49,15 +55,22 @@ void print(const HandFlesh& flesh, const HandMesh& mesh) {
       "/// thousandths.\n"
       "using FleshRow = std::array<std::int16_t, 11>;\n\n"
       "struct PadRow {{\n  std::int16_t part;  ///< -1: of no part's patch\n"
-      "  std::int16_t count;  ///< of skin rows\n  FleshRow middle;\n}};\n"
+      "  std::int16_t count;  ///< of skin rows\n  FleshRow middle;\n"
+      "  std::int16_t area_mm2;  ///< of palmar skin\n"
+      "  std::int16_t region;  ///< as SkinRegion\n  FleshRow palmar;\n}};\n"
       "inline constexpr std::array<PadRow, {}> kPads{{{{\n",
       flesh.pads.size());
   for (const nade::FleshPad& pad : flesh.pads) {
-    fmt::print("{{{}, {}, {{{}}}}},\n", pad.part ? static_cast<int>(*pad.part) : -1, pad.count,
-               row_of(pad.middle, mesh));
+    fmt::print("{{{}, {}, {{{}}}, {}}},\n", pad.part ? static_cast<int>(*pad.part) : -1, pad.count,
+               row_of(pad.middle, mesh), palmar_of(pad, mesh));
   }
   fmt::print("}}}};\n\ninline constexpr std::array<FleshRow, {}> kSkin{{{{\n", flesh.skin.size());
   for (const FleshPoint& point : flesh.skin) fmt::print("{{{}}},\n", row_of(point, mesh));
+  fmt::print(
+      "}}}};\n\n/// How far the flesh gives way at each, hundredths of a millimetre.\n"
+      "inline constexpr std::array<std::int16_t, {}> kSkinDepths{{{{\n",
+      flesh.depth_m.size());
+  for (const double depth_m : flesh.depth_m) fmt::print("{}, ", std::lround(1e5 * depth_m));
   fmt::print("}}}};\n\n}}  // namespace nade::detail\n");
 }
 

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 
 #include "commands.h"
 #include "nade/io/assets.h"
+#include "proxy/tuning.h"
 #ifdef NADE_CLI_PHYSICS
 #include "physics_hand.h"
 #endif
@@ -48,6 +50,45 @@ Result<std::vector<ComparedMethod>> chosen_methods(std::string_view names) {
     if (end == names.size()) return chosen;
     names.remove_prefix(end + 1);
   }
+}
+
+Result<std::shared_ptr<const ProxyTuning>> tuning_with(const std::vector<std::string>& settings) {
+  ProxyTuning tuning;
+  for (const std::string& setting : settings) {
+    const std::size_t equals = std::min(setting.find('='), setting.size());
+    const std::string_view name = std::string_view(setting).substr(0, equals);
+    const auto table = tuning_table();
+    const auto info = std::find_if(table.begin(), table.end(),
+                                   [&](const TuningInfo& each) { return each.name == name; });
+    if (info == table.end()) {
+      std::string names;
+      for (const TuningInfo& each : table) {
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", each.name);
+      }
+      return misuse(fmt::format("--set '{}': expected NAME=VALUE, NAME one of {}", setting, names));
+    }
+    double value = 0.0;
+    const char* const from = setting.data() + std::min(equals + 1, setting.size());
+    const char* const end = setting.data() + setting.size();
+    const auto read = std::from_chars(from, end, value);
+    if (read.ec != std::errc() || read.ptr != end ||
+        !(value >= info->least && value <= info->most)) {
+      return misuse(fmt::format("--set '{}': expected a number from {:g} to {:g}", setting,
+                                info->least, info->most));
+    }
+    tuning.*(info->value) = value;
+  }
+  return std::make_shared<const ProxyTuning>(tuning);
+}
+
+std::string tuning_as_markdown() {
+  std::string text = "| number | value | unit | range | why |\n|---|--:|---|---|---|\n";
+  const ProxyTuning tuning;
+  for (const TuningInfo& info : tuning_table()) {
+    text += fmt::format("| `{}` | {:g} | {} | {:g} to {:g} | {} |\n", info.name,
+                        tuning.*(info.value), info.unit, info.least, info.most, info.why);
+  }
+  return text;
 }
 
 Result<std::vector<std::shared_ptr<const Scene>>> chosen_scenes(const std::string& folder) {

@@ -26,6 +26,8 @@ struct BenchArguments {
   bool quick = false;
   bool full = false;
   std::string methods;
+  std::vector<std::string> settings;
+  bool tuning = false;
   std::string filter;
   std::vector<std::string> meshes;
   std::string clips;
@@ -62,6 +64,11 @@ Result<std::vector<std::string>> clips_in(const std::string& folder) {
 Result<BenchPlan> plan_of(const BenchArguments& arguments) {
   Result<std::vector<ComparedMethod>> methods = chosen_methods(arguments.methods);
   if (!methods) return methods.error();
+  const Result<std::shared_ptr<const ProxyTuning>> tuning = tuning_with(arguments.settings);
+  if (!tuning) return tuning.error();
+  for (ComparedMethod& method : methods.value()) {
+    if (method.name == "nade") method = tuned_method(*tuning);
+  }
   SuiteOptions options;
   if (arguments.quick) options.size = SuiteSize::quick;
   if (arguments.full) options.size = SuiteSize::full;
@@ -109,6 +116,7 @@ Status write_reports(const BenchArguments& arguments, const BenchReport& report)
 }
 
 Status run_command(const BenchArguments& arguments) {
+  if (arguments.tuning) return write_whole(kStandardStream, tuning_as_markdown());
   const Result<BenchPlan> plan = plan_of(arguments);
   if (!plan) return plan.error();
   const Result<DrawnHands> hands = load_drawn_hands();
@@ -139,6 +147,11 @@ void add_bench(CLI::App& app, Action& action) {
                    "which methods, parted by commas (default all): none, paper, nade, "
                    "wrist-offset, and physics where built with Bullet")
       ->type_name("NAMES");
+  command
+      ->add_option("--set", arguments->settings,
+                   "another number for method nade; repeatable; --tuning lists them")
+      ->type_name("NAME=VALUE");
+  command->add_flag("--tuning", arguments->tuning, "prints those numbers and ends");
   command->add_option("--filter", arguments->filter, "only cases with this in their names")
       ->type_name("TEXT");
   command->add_option("--mesh", arguments->meshes, "a mesh to stroke too, at its top; repeatable")

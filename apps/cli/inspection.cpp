@@ -128,10 +128,6 @@ std::string shown_counts(const Json& counts) {
   return parts.empty() ? "none" : fmt::format("{}", fmt::join(parts, ", "));
 }
 
-void append_row(std::string& text, std::string_view name, const std::string& value) {
-  fmt::format_to(std::back_inserter(text), "{:<22}{}\n", name, value);
-}
-
 void append_hand(std::string& text, const std::string& side, const Json& hand) {
   fmt::format_to(std::back_inserter(text), "\n{} hand\n", side);
   append_row(text, "  frames",
@@ -166,6 +162,10 @@ void append_hand(std::string& text, const std::string& side, const Json& hand) {
 }
 
 }  // namespace
+
+void append_row(std::string& text, std::string_view name, const std::string& value) {
+  fmt::format_to(std::back_inserter(text), "{:<22}{}\n", name, value);
+}
 
 void Range::add(double value) {
   least = std::min(least, value);

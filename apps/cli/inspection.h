@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "nade/eval/quantile.h"
@@ -53,6 +54,9 @@ struct Inspection {
 
   void add(const RecordedFrame& frame);
 };
+
+/// A row of what `inspect` prints for a person.
+void append_row(std::string& text, std::string_view name, const std::string& value);
 
 /// What `inspect` prints: for a program, and for a person.
 [[nodiscard]] nlohmann::ordered_json as_json(const Inspection& inspection,

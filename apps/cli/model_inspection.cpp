@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "inspection.h"
 #include "nade/io/mesh_file.h"
 #include "nade/io/object_file.h"
 
@@ -14,10 +15,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 double to_micrometre(float metres) { return std::round(double{metres} * 1e6) / 1e6; }
-
-void append_row(std::string& text, std::string_view name, const std::string& value) {
-  fmt::format_to(std::back_inserter(text), "{:<22}{}\n", name, value);
-}
 
 std::string shown_name(const Json& named) {
   const auto& name = named["name"].get_ref<const std::string&>();

@@ -33,7 +33,7 @@ enum class PalmRay : std::uint8_t { held, follows_hand };
 /// Whether a part that was pushed right through a thin wall stays on the side it came from.
 enum class EntrySide : std::uint8_t { remembered, forgotten };
 
-/// The open points of the paper's first step; the defaults are how docs/method.md settles them.
+/// The open points of the paper's first step; the defaults are how docs/paper.md settles them.
 struct ContactOptions {
   TestPoint test_point = TestPoint::skin;
   CountedHits counted_hits = CountedHits::from_inside;

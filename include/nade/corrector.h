@@ -9,14 +9,18 @@
 #include "nade/contact.h"
 #include "nade/correction.h"
 #include "nade/fingers.h"
-#include "nade/settle.h"
+#include "nade/flesh.h"
+#include "nade/settle_options.h"
 
 namespace nade {
+
+class ProxyHand;
+struct ProxyTuning;
 
 enum class Method : std::uint8_t {
   none,   ///< the tracked hand, bit for bit
   paper,  ///< contact rays, seated palm, laid fingers (2023)
-  nade,   ///< the whole hand settles on the surface
+  nade,   ///< a proxy hand with soft flesh lies on the surface
 };
 
 /// "none", "paper" or "nade", as on the command line and in files.
@@ -50,6 +54,9 @@ struct CorrectorOptions {
   /// Method `nade`: what can touch of each hand, by index_of(Handedness). Measure it on your own
   /// hand mesh if you draw another than the generic hand, which empty ones stand for.
   std::array<std::shared_ptr<const HandFlesh>, 2> flesh;
+  /// Method `nade`, for those who develop it (src/proxy/tuning.h): none for the numbers that it
+  /// has.
+  std::shared_ptr<const ProxyTuning> tuning;
 };
 
 /// All open points as the paper's bare text has them, for comparison.
@@ -73,12 +80,15 @@ struct CorrectedHand {
 class HandCorrector {
  public:
   explicit HandCorrector(const CorrectorOptions& options = {});
+  HandCorrector(HandCorrector&&) noexcept;
+  HandCorrector& operator=(HandCorrector&&) noexcept;
+  ~HandCorrector();
 
   /// The hand to draw for a tracked hand at `time_ns` (any origin), valid until the next call and
   /// not to be given back as `tracked`. Never allocates or throws; the pose is finite if the
   /// tracked one is. Method `paper` leaves a hand as it is that it would draw more than 10 m off.
   /// Where an object's triangles go through each other by the thousand, so that a frame's queries
-  /// would look at more than 300,000 nodes and leaves of the meshes, the tracked hand comes back,
+  /// would look at more than 1,000,000 nodes and leaves of the meshes, the tracked hand comes back,
   /// status `free`; no mesh that is like a surface takes so many. Rotations from half to twice the
   /// unit length are made unit first (`with_unit_rotations`). A pose that cannot be used even so
   /// comes back as it is, status `untracked`, and `fault` says why. Where no object is near, give
@@ -112,7 +122,8 @@ class HandCorrector {
   void follow_length(double length_m) noexcept;
   void correct_by_paper(const HandPose& tracked, const Object& object,
                         std::int64_t time_ns) noexcept;
-  void settle(const HandPose& tracked, const Object& object, std::int64_t time_ns) noexcept;
+  void follow_proxy(const HandPose& tracked, const Object& object, std::int64_t time_ns) noexcept;
+  void forget_proxies() noexcept;
   [[nodiscard]] const HandFlesh& flesh_of(Handedness side) const noexcept;
   [[nodiscard]] SkinDepths skin_of(const HandPose& tracked) const noexcept;
   void release(const HandPose& tracked, const Correction& correction,
@@ -120,8 +131,8 @@ class HandCorrector {
 
   CorrectorOptions options_;
   ContactMemory contact_memory_;
-  ObjectIdentity met_;                         ///< that it is of
-  std::array<SettleMemory, 2> settle_memory_;  ///< by index_of(Handedness)
+  ObjectIdentity met_;                                 ///< that it is of
+  std::array<std::unique_ptr<ProxyHand>, 2> proxies_;  ///< method nade; by index_of(Handedness)
   CorrectedHand result_;
   std::optional<Frame> last_;
   double hand_length_m_ = 0.0;      ///< mean over the last few seconds: bones do not grow

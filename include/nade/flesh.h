@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "nade/hand_mesh.h"
+#include "nade/skin.h"
 
 namespace nade {
 
@@ -19,6 +20,13 @@ struct FleshPoint {
                             Vec3::Zero()};  ///< in each joint's frame, the mesh's own size
 };
 
+/// The palmar skin near a pad, as one point.
+struct PalmarPatch {
+  FleshPoint middle;                     ///< its middle by area
+  double area_m2 = 0.0;                  ///< the mesh's own size
+  SkinRegion region = SkinRegion::back;  ///< of most of it
+};
+
 /// A piece of the hand about the size of a fingertip.
 struct FleshPad {
   FleshPoint middle;        ///< in the flesh
@@ -26,6 +34,7 @@ struct FleshPad {
   std::uint32_t count = 0;
   double radius_m = 0.0;     ///< no skin of it is farther from the middle, in the bind pose
   std::optional<Part> part;  ///< whose contact patch it belongs to
+  std::optional<PalmarPatch> palmar;  ///< none where there is no palmar skin nearest to it
 };
 
 /// All of a hand that can touch: its skin, in pieces. Metres, the mesh's own size.
@@ -34,6 +43,9 @@ struct HandFlesh {
   double hand_length_m = kGenericHandLength;  ///< of the mesh, wrist to middle knuckle
   std::vector<FleshPad> pads;
   std::vector<FleshPoint> skin;
+  /// By skin point: how far the flesh gives way there, as of SkinMap. Metres, alike for hands of
+  /// any size.
+  std::vector<double> depth_m;
 };
 
 /// A hand has no more skin points than this: a frame looks at each of them.

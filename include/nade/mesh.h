@@ -48,7 +48,7 @@ struct MeshReport {
 /// A triangle mesh as a solid. Queries are thread-safe and do not allocate. Normals run smoothly
 /// over the surface and break where faces meet at more than 40 degrees.
 ///
-/// What a query costs is bounded, whatever the mesh: it looks at no more than 512 nodes and leaves
+/// What a query costs is bounded, whatever the mesh: it looks at no more than 2048 nodes and leaves
 /// of eight triangles, and 1024 more to tell inside from outside where a mesh is not clean. A
 /// surface takes a dozen or two. Where that is not enough, as in thousands of triangles that go
 /// through each other, or from the middle of a ball of a million, the answer is a point of the

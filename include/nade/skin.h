@@ -27,7 +27,7 @@ inline constexpr std::size_t kSkinRegionCount = 7;
 struct SkinMap {
   std::vector<SkinRegion> region;
   /// How far the skin may be pushed in: the flesh, and the giving of a palm that is drawn rigid.
-  /// Metres, alike for hands of any size.
+  /// Metres, alike for hands of any size; the same for vertices at one place.
   std::vector<double> flesh_depth_m;
   /// A third of each triangle at the vertex, square metres, the mesh's own size.
   std::vector<double> area_m2;

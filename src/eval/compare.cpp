@@ -19,10 +19,12 @@ namespace {
 
 constexpr double kSearch_m = 0.2;
 
-ComparedMethod corrector_method(std::string name, Method method) {
-  return {std::move(name), [method](const SolverContext& context) -> HandSolver {
+ComparedMethod corrector_method(std::string name, Method method,
+                                std::shared_ptr<const ProxyTuning> tuning = nullptr) {
+  return {std::move(name), [method, tuning](const SolverContext& context) -> HandSolver {
             CorrectorOptions options;
             options.method = method;
+            options.tuning = tuning;
             options.hand_length_m = context.hand_scale * context.flesh->hand_length_m;
             options.flesh[index_of(context.side)] = context.flesh;
             const auto corrector = std::make_shared<HandCorrector>(options);
@@ -111,6 +113,10 @@ Result<DrawnHands> load_drawn_hands() {
 std::vector<ComparedMethod> library_methods() {
   return {corrector_method("none", Method::none), paper_method(),
           corrector_method("nade", Method::nade), wrist_offset_method()};
+}
+
+ComparedMethod tuned_method(std::shared_ptr<const ProxyTuning> tuning) {
+  return corrector_method("nade", Method::nade, std::move(tuning));
 }
 
 ComparedMethod paper_method() { return corrector_method("paper", Method::paper); }

@@ -63,6 +63,26 @@ inline double lowest_skin(const HandPose& hand, const Object& object,
   return lowest;
 }
 
+/// The same with each point's flesh depth added: below 0 where skin is deeper than flesh gives way.
+inline double least_room(const HandPose& hand, const Object& object,
+                         double reach_m = std::numeric_limits<double>::infinity()) {
+  const HandFlesh& flesh = generic_flesh(hand.side);
+  const double scale = hand_length(hand) / flesh.hand_length_m;
+  double least = reach_m;
+  SurfaceHint hint;
+  for (std::size_t k = 0; k < flesh.skin.size(); ++k) {
+    const auto nearest =
+        object.closest_point(position_of(flesh.skin[k], hand, scale), reach_m, hint);
+    if (nearest) least = std::min(least, nearest->signed_distance + flesh.depth_m[k]);
+  }
+  return least;
+}
+
+/// Whether some skin touches, and none is deeper than flesh gives way; to a millimetre.
+inline bool rests_on(const Object& object, const HandPose& hand) {
+  return lowest_skin(hand, object) < 0.001 && least_room(hand, object) > -0.001;
+}
+
 inline double excess(double value, double low, double high) {
   return std::max({0.0, value - high, low - value});
 }

@@ -51,6 +51,9 @@ struct ComparedMethod {
 /// none, paper, nade and wrist-offset (nade/eval/wrist_offset.h).
 [[nodiscard]] std::vector<ComparedMethod> library_methods();
 
+/// The default method with other numbers than it has (src/proxy/tuning.h).
+[[nodiscard]] ComparedMethod tuned_method(std::shared_ptr<const ProxyTuning> tuning);
+
 /// The paper's, which targets refer to.
 [[nodiscard]] ComparedMethod paper_method();
 

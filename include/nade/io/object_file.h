@@ -9,7 +9,7 @@
 
 #include "nade/io/animated_mesh.h"
 #include "nade/io/mesh_file.h"
-#include "nade/settle.h"
+#include "nade/settle_options.h"
 #include "nade/status.h"
 #include "nade/surface.h"
 

@@ -1,0 +1,106 @@
+#include "inertia.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ramps.h"
+
+namespace nade {
+namespace {
+
+// Numerics: how firmly the speed bound holds, and from which excess on.
+constexpr double kHoldStiffness = 1e6;
+constexpr double kHeldLoosely = 1.05;
+constexpr double kLoose_m = 1e-6;
+/// A hand whose skin is pressed in so deep rests on the object, and surely rests.
+constexpr double kPressedIn_m = 0.01;
+constexpr double kSurelyRests_m = 0.05;
+
+}  // namespace
+
+JointVectors coasted_joints(const ProxyState& state, const HandPose& tracked, const Vec3& moved,
+                            double seconds, double offset_time_s) noexcept {
+  const SettledFrame& last = *state.last;
+  const double kept_s = seconds * std::exp(-seconds / offset_time_s);
+  const Vec3& normal = state.touch.normal;
+  const double rests = smoothstep(kPressedIn_m, kSurelyRests_m, state.touch.deepest_m);
+  JointVectors coasted;
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    const Vec3 offset = last.drawn.joints[i].position - last.tracked.joints[i].position;
+    coasted[i] = tracked.joints[i].position + offset + moved + kept_s * state.offset_velocity[i];
+    const Vec3 own = last.drawn.joints[i].position +
+                     seconds * (state.tracked_velocity[i] + state.offset_velocity[i]);
+    coasted[i] -= rests * std::max(0.0, normal.dot(coasted[i] - own)) * normal;
+  }
+  return coasted;
+}
+
+void add_inertia(const JointVectors& coasted, double stiffness, const PosedHand& posed,
+                 Springs& springs) noexcept {
+  // Every joint's spring is as stiff in every direction, so most of the products are sums of cross
+  // products: a shift of the wrist meets every joint alike, a turn w takes one at r along w x r.
+  Vec3 sum = Vec3::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    const JointMotion motion = motion_of(posed, i);
+    const Vec3& reach = motion.reach;
+    const Vec3 force = stiffness * (coasted[i] - posed.hand.joints[i].position);
+    sum += reach;
+    squares += reach * reach.transpose();
+    springs.force.head<3>() += force;
+    springs.force.segment<3>(3) += reach.cross(force);
+    const std::array<Vec3, kDigitFreedoms>& bends = motion.with_bend;
+    for (std::size_t f = 0; f < motion.bends; ++f) {
+      const auto column = static_cast<Eigen::Index>(f);
+      springs.force[first_freedom(motion.digit) + column] += bends[f].dot(force);
+      auto coupling = springs.stiffness.coupling[motion.digit].col(column);
+      coupling.head<3>() += stiffness * bends[f];
+      coupling.tail<3>() += stiffness * reach.cross(bends[f]);
+      for (std::size_t g = 0; g <= f; ++g) {
+        const auto row = static_cast<Eigen::Index>(g);
+        const double product = stiffness * bends[g].dot(bends[f]);
+        springs.stiffness.digit[motion.digit](row, column) += product;
+        if (g != f) springs.stiffness.digit[motion.digit](column, row) += product;
+      }
+    }
+  }
+  Eigen::Matrix<double, 6, 6>& wrist = springs.stiffness.wrist;
+  Eigen::Matrix3d crossed;
+  crossed << 0.0, sum.z(), -sum.y(), -sum.z(), 0.0, sum.x(), sum.y(), -sum.x(), 0.0;
+  wrist.topLeftCorner<3, 3>().diagonal().array() += stiffness * kJointCount;
+  wrist.topRightCorner<3, 3>() += stiffness * crossed;
+  wrist.bottomLeftCorner<3, 3>() += stiffness * crossed.transpose();
+  wrist.bottomRightCorner<3, 3>() +=
+      stiffness * (squares.trace() * Eigen::Matrix3d::Identity() - squares);
+}
+
+bool hold_back(const HandPose& last, const HandPose& next, double most_m, const PosedHand& posed,
+               const HandFreedoms& step, std::vector<ContactTerm>& terms) noexcept {
+  const auto way_of = [&](std::size_t joint) -> Vec3 {
+    return next.joints[joint].position - last.joints[joint].position;
+  };
+  bool any = false;
+  const auto hold = [&](std::size_t joint) {
+    const Vec3 way = way_of(joint);
+    const double length_m = way.norm();
+    if (length_m <= kHeldLoosely * most_m + kLoose_m || terms.size() == terms.capacity()) return;
+    ContactTerm& term = terms.emplace_back();
+    term.kind = ContactKind::speed;
+    term.stiffness = kHoldStiffness;
+    term.row = motion_along(posed, joint_point(joint), -way / length_m);
+    term.row.gap_m = most_m - length_m - gap_after(term.row, step);
+    any = true;
+  };
+  hold(index_of(Joint::wrist));
+  for (std::size_t d = 0; d < kDigitCount; ++d) {
+    const DigitJoints joints = joints_of(digit_at(d));
+    std::size_t farthest = index_of(joints.tip);
+    for (std::size_t i = index_of(joints.metacarpal); i < index_of(joints.tip); ++i) {
+      if (way_of(i).squaredNorm() > way_of(farthest).squaredNorm()) farthest = i;
+    }
+    hold(farthest);
+  }
+  return any;
+}
+
+}  // namespace nade

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "posed_hand.h"
+#include "state.h"
+
+namespace nade {
+
+// What the correction adds to the person's motion has inertia, and a bound.
+
+/// Where the drawn joints are if each keeps its way from the tracked one, but for `moved`, and the
+/// velocity of that, which fades with `offset_time_s`. A hand that is pressed in rests on the
+/// object: it leaves the surface no sooner than by its own velocity, however the person's goes.
+[[nodiscard]] JointVectors coasted_joints(const ProxyState& state, const HandPose& tracked,
+                                          const Vec3& moved, double seconds,
+                                          double offset_time_s) noexcept;
+
+/// Springs as stiff as that, 1/m^2, from every joint of `posed` to where it would coast to.
+void add_inertia(const JointVectors& coasted, double stiffness, const PosedHand& posed,
+                 Springs& springs) noexcept;
+
+/// Adds terms that hold back what a step would take farther from the last frame's hand than
+/// `most_m`: the wrist, and of each digit the joint that goes farthest. `next` is the hand after
+/// the step, `posed` before it. Says whether there are any.
+[[nodiscard]] bool hold_back(const HandPose& last, const HandPose& next, double most_m,
+                             const PosedHand& posed, const HandFreedoms& step,
+                             std::vector<ContactTerm>& terms) noexcept;
+
+}  // namespace nade

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "contact_term.h"
+#include "nade/correction.h"
+#include "nade/flesh.h"
+#include "nade/surface.h"
+#include "pad_plane.h"
+#include "solver.h"
+
+namespace nade {
+
+/// What a drawn hand is doing. docs/method.md draws how one follows from the other.
+enum class ProxyMode : std::uint8_t {
+  lost,       ///< no hand was seen: the next is found anew
+  free,       ///< drawn as it is tracked, or on its way there with nothing in the way
+  contact,    ///< the object holds it, and the person presses
+  blocked,    ///< the object holds it up, the person is elsewhere
+  returning,  ///< let go: it fades to where the person is
+};
+
+/// A frame as it was settled.
+struct SettledFrame {
+  HandPose tracked;
+  HandPose drawn;
+  Correction correction;
+};
+
+/// How the hand touches the surface; along the object's axes.
+struct SurfaceTouch {
+  Vec3 normal = Vec3::Zero();  ///< unit, of the surface under what is drawn to it; zero in the air
+  double height_m = 0.0;       ///< of the drawn palm over the tracked one along it
+  double deepest_m = -1.0;     ///< of the tracked palmar skin below the surface
+  double air_s = 0.0;          ///< how long nothing has held the hand
+  double softness_m = 0.0;     ///< of the object, smoothed
+  double softness_depth_m = 0.02;
+  Vec3 lag = Vec3::Zero();        ///< along the surface, by friction
+  Vec3 drawn_lag = Vec3::Zero();  ///< the same, smoothed
+  bool slips = false;
+};
+
+/// A frame after which the tracked hand jumped.
+struct FrameBeforeJump {
+  SettledFrame frame;
+  SurfaceTouch touch;
+  ProxyMode mode = ProxyMode::lost;
+  double ago_s = std::numeric_limits<double>::infinity();
+};
+/// Of the last few jumps: a tracker may err anew before it is back.
+using FramesBeforeJumps = std::array<FrameBeforeJump, 3>;
+
+/// What was seen of a deforming surface near a joint of the drawn hand.
+struct SurfaceWatch {
+  SurfaceHint hint;
+  std::optional<SurfacePoint> before;  ///< in the last frame's shape
+};
+inline constexpr std::size_t kSurfaceWatches = 7;
+
+/// A hand that was let go, on its way from one correction to another.
+struct Return {
+  HandFreedoms from = HandFreedoms::Zero();  ///< what it had more, along the object's axes
+  double elapsed_s = std::numeric_limits<double>::infinity();
+  double lasts_s = 1.0;
+};
+
+/// What a proxy hand remembers from frame to frame, in the object's frame and in the world's
+/// lengths, and room to work in. A copy would lack that room.
+struct ProxyState {
+  explicit ProxyState(const HandFlesh& flesh);
+
+  // Where the object is.
+  Pose home;                 ///< when the hand was found, in the world
+  Pose place;                ///< in the last frame
+  Vec3 went = Vec3::Zero();  ///< the tracked palm's way in the last frame, in the world
+  ObjectIdentity object;
+  std::uint64_t shape = 0;    ///< the surface's
+  double scale = 1.0;         ///< the object's
+  double undeformed_s = 0.0;  ///< how long both have been the same
+  std::array<SurfaceWatch, kSurfaceWatches> watches;
+
+  // The hand.
+  ProxyMode mode = ProxyMode::lost;
+  std::optional<SettledFrame> last;
+  Correction shown;                 ///< the last one as drawn, which may be on its way there
+  JointVectors tracked_velocity{};  ///< m/s
+  JointVectors offset_velocity{};   ///< of the drawn joints against the tracked ones
+  double frame_s = 0.0;             ///< between frames, in the mean
+  FramesBeforeJumps before_jumps;
+  SurfaceTouch touch;
+  double clear_s = 0.0;  ///< how long the tracked hand is clear of the object, the drawn one far
+  double stuck_s = 0.0;  ///< how long it presses elsewhere
+  Return returning;
+
+  // The surface near its pads.
+  std::vector<PadMemory> pads;
+  JointVectors joints{};        ///< of the hand as looked at last
+  double travel_m = 0.0;        ///< the sum of what its farthest joint went from look to look
+  double way_m = 0.0;           ///< and of what the tracked hand's went from frame to frame
+  std::size_t last_inside = 0;  ///< the pad whose tracked skin was last found in the object
+
+  std::vector<ContactTerm> terms;
+  SolverRoom room;
+};
+
+/// The surface has another shape: what its pads saw does not count.
+void forget_planes(ProxyState& state) noexcept;
+/// The surface is another's: nothing is known of it.
+void forget_surface(ProxyState& state) noexcept;
+/// The hand is found anew. It may still jump back to where it was.
+void forget_frame(ProxyState& state) noexcept;
+
+}  // namespace nade

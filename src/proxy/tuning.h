@@ -1,0 +1,46 @@
+#pragma once
+
+#include <span>
+
+namespace nade {
+
+/// What shapes the proxy hand's behaviour, and nothing else does. Stiffnesses are those of one
+/// energy, in which a turn of one radian about a joint of stiffness 1 costs one half. Each member's
+/// unit, range and reason are in `tuning_table`.
+struct ProxyTuning {
+  double shift_stiffness = 3000.0;
+  double turn_stiffness = 7.0;
+  double abduction_stiffness = 10.0;
+  double knuckle_stiffness = 2.0;
+  double finger_stiffness = 5.0;
+  double thumb_stiffness = 2.0;
+  double seat_stiffness = 100.0;
+  double most_bent_back_rad = 0.44;
+  double joint_mass = 2.0;
+  double offset_time_s = 0.06;
+  double adhesion = 1.5e7;
+  double adhesion_height_m = 0.003;
+  double adhesion_from_m = -0.006;
+  double adhesion_full_m = 0.012;
+  double adhesion_reach_m = 0.05;
+  double pressed_m = 0.01;
+  double landing_m = 0.02;
+  double landing_damping = 500.0;
+  double slide_time_s = 10.0;
+  double rest_speed_mps = 0.01;
+};
+
+/// One of its numbers, for tables and options.
+struct TuningInfo {
+  const char* name;  ///< the member's
+  const char* unit;
+  double least;  ///< what it may be set to
+  double most;
+  const char* why;
+  double ProxyTuning::*value;
+};
+
+/// All of them, in order.
+[[nodiscard]] std::span<const TuningInfo> tuning_table();
+
+}  // namespace nade
