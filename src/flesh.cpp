@@ -299,6 +299,14 @@ void add_skin(const HandMesh& mesh, CutHand& cut) {
 
 }  // namespace
 
+Vec3 position_of(const FleshPoint& point, const HandPose& hand, double scale) noexcept {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 0; k < point.joints.size() && point.weights[k] > 0.0; ++k) {
+    sum += point.weights[k] * hand.joints[point.joints[k]].apply(scale * point.local[k]);
+  }
+  return sum;
+}
+
 HandFlesh measure_flesh(const HandMesh& mesh) {
   CutHand cut = cut_up(mesh, spread_vertices(mesh, 0.0));
   for (double apart_m = kFinest_m; cut.flesh.skin.size() > kMostSkinPoints; apart_m *= kCoarser) {

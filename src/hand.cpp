@@ -131,15 +131,19 @@ HandPose moved(const HandPose& hand, const Pose& motion) noexcept {
   return result;
 }
 
+Pose mirrored(const Pose& pose) noexcept {
+  Pose result = pose;
+  result.position.x() = -pose.position.x();
+  // Conjugating a rotation with the reflection of x keeps its x and w.
+  result.rotation.y() = -pose.rotation.y();
+  result.rotation.z() = -pose.rotation.z();
+  return result;
+}
+
 HandPose mirrored(const HandPose& hand) noexcept {
   HandPose result = hand;
   result.side = hand.side == Handedness::left ? Handedness::right : Handedness::left;
-  for (Pose& joint : result.joints) {
-    joint.position.x() = -joint.position.x();
-    // Conjugating a rotation with the reflection of x keeps its x and w.
-    joint.rotation.y() = -joint.rotation.y();
-    joint.rotation.z() = -joint.rotation.z();
-  }
+  for (Pose& joint : result.joints) joint = mirrored(joint);
   return result;
 }
 

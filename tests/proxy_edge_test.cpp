@@ -166,7 +166,7 @@ std::unique_ptr<MeshSurface> floor_and_thin_walls(const std::vector<test::Vec3f>
 double farthest_beyond(const std::vector<test::Vec3f>& facing, const HandPose& hand) {
   double farthest_m = -std::numeric_limits<double>::infinity();
   for (const FleshPoint& point : generic_flesh(hand.side).skin) {
-    const Vec3 skin = test::position_of(point, hand, 1.0);
+    const Vec3 skin = position_of(point, hand, 1.0);
     for (const test::Vec3f& normal : facing) {
       farthest_m = std::max(farthest_m, -normal.cast<double>().dot(skin));
     }

@@ -30,7 +30,7 @@ double height_of(Part part, const HandPose& hand) {
   for (const FleshPad& pad : flesh.pads) {
     if (pad.part != part) continue;
     for (std::size_t k = pad.first; k < pad.first + pad.count; ++k) {
-      lowest = std::min(lowest, test::position_of(flesh.skin[k], hand, scale).y());
+      lowest = std::min(lowest, position_of(flesh.skin[k], hand, scale).y());
     }
   }
   return lowest;

@@ -20,6 +20,10 @@ struct FleshPoint {
                             Vec3::Zero()};  ///< in each joint's frame, the mesh's own size
 };
 
+/// Where a hand that is so many times the mesh's size has it.
+[[nodiscard]] Vec3 position_of(const FleshPoint& point, const HandPose& hand,
+                               double scale) noexcept;
+
 /// The palmar skin near a pad, as one point.
 struct PalmarPatch {
   FleshPoint middle;                     ///< its middle by area

@@ -158,6 +158,9 @@ enum class HandFault : std::uint8_t {
 /// The hand moved rigidly: every joint by `motion`.
 [[nodiscard]] HandPose moved(const HandPose& hand, const Pose& motion) noexcept;
 
+/// The same place seen in the mirror x = 0.
+[[nodiscard]] Pose mirrored(const Pose& pose) noexcept;
+
 /// The same hand seen in the mirror x = 0, with the other handedness.
 [[nodiscard]] HandPose mirrored(const HandPose& hand) noexcept;
 

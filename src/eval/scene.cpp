@@ -19,14 +19,6 @@ constexpr std::size_t kMotions = 6;        // 3 shifts, 3 turns
 constexpr std::size_t kBendsPerDigit = 4;  // base, middle, last, abduction
 constexpr std::size_t kMotionNumbers = 9;  // 3 shifts, 3 turns, 3 stretches
 
-/// The mirror image in x = 0.
-Pose mirror_image(Pose pose) {
-  pose.position.x() = -pose.position.x();
-  pose.rotation.y() = -pose.rotation.y();
-  pose.rotation.z() = -pose.rotation.z();
-  return pose;
-}
-
 /// A gesture as angles to be added to those of the relaxed hand.
 HandAngles added_angles(const Gesture& gesture, const HandAngles& relaxed) {
   HandAngles added{};
@@ -60,11 +52,7 @@ double reach_down(const HandPose& hand) {
   const double scale = hand_length(hand) / flesh.hand_length_m;
   double lowest = std::numeric_limits<double>::infinity();
   for (const FleshPoint& point : flesh.skin) {
-    Vec3 at = Vec3::Zero();
-    for (std::size_t k = 0; k < point.joints.size(); ++k) {
-      at += point.weights[k] * hand.joints[point.joints[k]].apply(scale * point.local[k]);
-    }
-    lowest = std::min(lowest, at.y());
+    lowest = std::min(lowest, position_of(point, hand, scale).y());
   }
   return hand[Joint::palm].position.y() - lowest;
 }
@@ -165,7 +153,7 @@ class SceneHand {
     TrackerError error = noise_.next(time_s);
     Pose palm{numbers.head<3>(), turned_by(numbers.segment<3>(3))};
     palm = palm * error.palm;
-    if ((side_ == Handedness::left) != faults.swapped) palm = mirror_image(palm);
+    if ((side_ == Handedness::left) != faults.swapped) palm = mirrored(palm);
     HandAngles added = angles_in(numbers);
     for (std::size_t i = 0; i < kDigitCount; ++i) {
       for (std::size_t hinge = 0; hinge < kHingeCount; ++hinge) {

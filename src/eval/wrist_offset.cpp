@@ -16,15 +16,6 @@ constexpr int kHitsMax = 8;         // walls between a point and the open
 constexpr int kTurns = 2;           // of the normal, in a frame
 constexpr int kMendings = 4;        // where another part of the object is in the way
 
-Vec3 position_of(const FleshPoint& point, const HandPose& hand, double scale) {
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 0; i < point.joints.size(); ++i) {
-    if (point.weights[i] <= 0.0) continue;
-    sum += point.weights[i] * hand.joints[point.joints[i]].apply(scale * point.local[i]);
-  }
-  return sum;
-}
-
 }  // namespace
 
 WristOffset::WristOffset(std::shared_ptr<const HandFlesh> flesh, double scale)

@@ -41,31 +41,10 @@ inline CorrectorOptions settling() {
   return options;
 }
 
-inline Vec3 position_of(const FleshPoint& point, const HandPose& hand, double scale) {
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t k = 0; k < point.joints.size(); ++k) {
-    sum += point.weights[k] * hand.joints[point.joints[k]].apply(scale * point.local[k]);
-  }
-  return sum;
-}
-
-/// Signed distance of the deepest skin; `reach_m` where none is nearer.
-inline double lowest_skin(const HandPose& hand, const Object& object,
-                          double reach_m = std::numeric_limits<double>::infinity()) {
-  const HandFlesh& flesh = generic_flesh(hand.side);
-  const double scale = hand_length(hand) / flesh.hand_length_m;
-  double lowest = reach_m;
-  SurfaceHint hint;
-  for (const FleshPoint& point : flesh.skin) {
-    const auto nearest = object.closest_point(position_of(point, hand, scale), reach_m, hint);
-    if (nearest) lowest = std::min(lowest, nearest->signed_distance);
-  }
-  return lowest;
-}
-
-/// The same with each point's flesh depth added: below 0 where skin is deeper than flesh gives way.
-inline double least_room(const HandPose& hand, const Object& object,
-                         double reach_m = std::numeric_limits<double>::infinity()) {
+/// The least over the skin of its signed distance, to which `flesh_share` of its flesh depth is
+/// added; `reach_m` where none is nearer.
+inline double least_over_skin(const HandPose& hand, const Object& object, double flesh_share,
+                              double reach_m) {
   const HandFlesh& flesh = generic_flesh(hand.side);
   const double scale = hand_length(hand) / flesh.hand_length_m;
   double least = reach_m;
@@ -73,9 +52,22 @@ inline double least_room(const HandPose& hand, const Object& object,
   for (std::size_t k = 0; k < flesh.skin.size(); ++k) {
     const auto nearest =
         object.closest_point(position_of(flesh.skin[k], hand, scale), reach_m, hint);
-    if (nearest) least = std::min(least, nearest->signed_distance + flesh.depth_m[k]);
+    if (!nearest) continue;
+    least = std::min(least, nearest->signed_distance + flesh_share * flesh.depth_m[k]);
   }
   return least;
+}
+
+/// Signed distance of the deepest skin; `reach_m` where none is nearer.
+inline double lowest_skin(const HandPose& hand, const Object& object,
+                          double reach_m = std::numeric_limits<double>::infinity()) {
+  return least_over_skin(hand, object, 0.0, reach_m);
+}
+
+/// The same with each point's flesh depth added: below 0 where skin is deeper than flesh gives way.
+inline double least_room(const HandPose& hand, const Object& object,
+                         double reach_m = std::numeric_limits<double>::infinity()) {
+  return least_over_skin(hand, object, 1.0, reach_m);
 }
 
 /// Whether some skin touches, and none is deeper than flesh gives way; to a millimetre.
