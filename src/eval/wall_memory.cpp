@@ -52,9 +52,8 @@ void WallMemory::cross(const Object& object, const Vec3& from, const Vec3& to, E
     if (!hit->from_inside && !entry.entered) {
       entry.entered = true;
       entry.normal_object = object.placement().pose.rotation.conjugate() * hit->normal;
-    } else if (hit->from_inside) {
-      const bool back = hit->normal.dot(normal) > 0.0;
-      if (back || (&entry != &palm_ && is_with_hand(object, *hit))) entry.entered = false;
+    } else if (hit->from_inside && (hit->normal.dot(normal) > 0.0 || is_with_hand(object, *hit))) {
+      entry.entered = false;
     }
     at = hit->point + kPastHit_m * direction;
     left_m -= hit->distance + kPastHit_m;

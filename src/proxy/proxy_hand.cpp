@@ -64,6 +64,9 @@ constexpr double kUnnoticed_m = 0.02;
 constexpr double kCatchUp_s = 0.3;
 constexpr double kCatchUpMost_mps = 0.1;
 
+/// Whether the person has pressed a part in where the drawn one is not far off.
+bool is_near(const PartTouch& part) { return part.depth_m > 0.0 && part.gap_m < kTouchReach_m; }
+
 }  // namespace
 
 /// One frame's work, in the object's frame.
@@ -89,7 +92,7 @@ class ProxyFrame {
     follow_person();
     start();
     settle();
-    if (seen_.at_another && is_displaced() && !found_anew_) {
+    if (!found_anew_ && is_displaced()) {
       start_anew();
       settle();
     }
@@ -207,7 +210,7 @@ void ProxyFrame::start_anew() {
   search_.deepest_m = -1.0;
   normal_.setZero();
   correction_ = {};
-  correction_.palm.shift = start_outside(search_, model_.tracked[Joint::palm].position).shift;
+  correction_.palm.shift = shift_outside(search_, model_.tracked[Joint::palm].position);
   search_.sink_m = find_sink();
 }
 
@@ -317,9 +320,7 @@ bool ProxyFrame::is_pushed(const HandFreedoms& step) const {
 
 /// Whether the person is in the object near where the drawn hand is.
 bool ProxyFrame::hovers() const {
-  return std::any_of(found_.parts.begin(), found_.parts.end(), [](const PartTouch& part) {
-    return part.depth_m > 0.0 && part.gap_m < kTouchReach_m;
-  });
+  return std::any_of(found_.parts.begin(), found_.parts.end(), is_near);
 }
 
 void ProxyFrame::remember_touch() {
@@ -403,7 +404,7 @@ ProxyResult ProxyFrame::finish() {
   result.corrected = !is_none(correction_) || state_.mode == ProxyMode::returning;
   for (std::size_t i = 0; i < kPartCount; ++i) {
     const PartTouch& part = found_.parts[i];
-    if (!(part.depth_m > 0.0) || part.gap_m > kTouchReach_m) continue;
+    if (!is_near(part)) continue;
     PartContact contact;
     contact.ray_origin = search_.tracked.position(*part.point);
     contact.ray_direction = contact.skin_direction = contact.normal = part.plane.normal;

@@ -30,22 +30,21 @@ double way_out(const ContactSearch& search, const Vec3& shift, const Vec3& out) 
 
 }  // namespace
 
-OutsideStart start_outside(const ContactSearch& search, const Vec3& palm) noexcept {
-  OutsideStart start;
+Vec3 shift_outside(const ContactSearch& search, const Vec3& palm) noexcept {
+  Vec3 shift = Vec3::Zero();
   SurfaceHint hint;
   const auto nearest = search.object.closest_point(palm, kDeepest_m, hint);
-  if (!nearest) return start;
+  if (!nearest) return shift;
   const Vec3 out = outward_normal(*nearest, palm);
   if (nearest->signed_distance <= 0.0) {
-    start.push = out;
-    start.shift = nearest->point - palm + search.scale * kPalmThickness_m * out;
+    shift = nearest->point - palm + search.scale * kPalmThickness_m * out;
   }
   for (int look = 0; look < kLooksInside; ++look) {
-    const double left_m = way_out(search, start.shift, out);
+    const double left_m = way_out(search, shift, out);
     if (left_m == 0.0) break;
-    start.shift += left_m * out;
+    shift += left_m * out;
   }
-  return start;
+  return shift;
 }
 
 }  // namespace nade
