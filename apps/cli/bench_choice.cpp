@@ -1,6 +1,7 @@
 #include "bench_choice.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -24,6 +25,14 @@ std::vector<ComparedMethod> all_methods() {
   return methods;
 }
 
+template <class Named>
+std::vector<std::string_view> names_of(const Named& all) {
+  std::vector<std::string_view> names;
+  names.reserve(all.size());
+  for (const auto& each : all) names.emplace_back(each.name);
+  return names;
+}
+
 }  // namespace
 
 Result<std::vector<ComparedMethod>> chosen_methods(std::string_view names) {
@@ -37,11 +46,8 @@ Result<std::vector<ComparedMethod>> chosen_methods(std::string_view names) {
       return method.name == name;
     });
     if (found == known.end()) {
-      std::string expected;
-      for (const ComparedMethod& method : known) {
-        expected += (expected.empty() ? "" : ", ") + method.name;
-      }
-      return misuse(fmt::format("--method '{}': expected some of {}", name, expected));
+      return misuse(fmt::format("--method '{}': expected some of {}", name,
+                                fmt::join(names_of(known), ", ")));
     }
     const bool again = std::any_of(chosen.begin(), chosen.end(), [&](const ComparedMethod& method) {
       return method.name == name;
@@ -61,11 +67,8 @@ Result<std::shared_ptr<const ProxyTuning>> tuning_with(const std::vector<std::st
     const auto info = std::find_if(table.begin(), table.end(),
                                    [&](const TuningInfo& each) { return each.name == name; });
     if (info == table.end()) {
-      std::string names;
-      for (const TuningInfo& each : table) {
-        names += fmt::format("{}{}", names.empty() ? "" : ", ", each.name);
-      }
-      return misuse(fmt::format("--set '{}': expected NAME=VALUE, NAME one of {}", setting, names));
+      return misuse(fmt::format("--set '{}': expected NAME=VALUE, NAME one of {}", setting,
+                                fmt::join(names_of(table), ", ")));
     }
     double value = 0.0;
     const char* const from = setting.data() + std::min(equals + 1, setting.size());
