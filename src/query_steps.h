@@ -9,8 +9,8 @@ namespace nade::detail {
 /// costs grows with nothing else of an object.
 inline constinit thread_local std::int64_t steps_left = std::numeric_limits<std::int64_t>::max();
 
-/// In a frame. One that finds its hand anew on a million triangles takes a third of them, one that
-/// goes on a hundredth.
+/// In a frame. One that finds its hand anew on a million triangles takes six tenths of them, one
+/// that goes on a hundredth.
 inline constexpr std::int64_t kMostFrameSteps = 1'000'000;
 
 /// Bounds what queries may look at as long as it lives. Once that is used up they find nothing.

@@ -4,9 +4,10 @@
 
 namespace nade {
 
-/// What shapes the proxy hand's behaviour, and nothing else does. Stiffnesses are those of one
-/// energy, in which a turn of one radian about a joint of stiffness 1 costs one half. Each member's
-/// unit, range and reason are in `tuning_table`.
+/// How the proxy hand lies on a surface and goes along it: the numbers of its energy. When a mode
+/// changes, and what counts as a tracker's error, stands beside the code of each. Stiffnesses are
+/// those of one energy, in which a turn of one radian about a joint of stiffness 1 costs one half.
+/// Each member's unit, range and reason are in `tuning_table`.
 struct ProxyTuning {
   double shift_stiffness = 3000.0;
   double turn_stiffness = 7.0;
