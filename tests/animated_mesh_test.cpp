@@ -133,7 +133,7 @@ TEST(AnimatedMesh, OneMomentStandsStillAndNamesTheOthers) {
   file.animate(0, "translation", "LINEAR", {0}, {0, 2, 0});
   Json pose = file.gltf["animations"][0];
   pose["name"] = "T-Pose";
-  file.gltf["animations"] = {pose};
+  file.gltf["animations"] = Json::array({pose});
   auto alone = load_object(file.write() + ":alive");
   ASSERT_TRUE(alone.ok()) << alone.error().message;
   ASSERT_EQ(alone->warnings.size(), 2U);

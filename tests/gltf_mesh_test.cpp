@@ -182,7 +182,7 @@ TEST(GltfMesh, ExtensionsThatLeaveTheShapeAreAccepted) {
   for (const char* name :
        {"KHR_node_visibility", "KHR_lights_punctual", "EXT_lights_image_based",
         "KHR_animation_pointer", "KHR_materials_unlit", "EXT_texture_webp", "VRMC_vrm"}) {
-    file.gltf["extensionsRequired"] = {name};
+    file.gltf["extensionsRequired"] = nlohmann::json::array({name});
     EXPECT_TRUE(load_mesh(file.write()).ok()) << name;
   }
   file.gltf["extensionsRequired"] = {"EXT_mesh_gpu_instancing"};
