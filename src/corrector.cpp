@@ -9,8 +9,8 @@
 
 #include "nade/assert.h"
 #include "proxy/proxy_hand.h"
-#include "query_steps.h"
 #include "ramps.h"
+#include "surface/query_steps.h"
 
 namespace nade {
 namespace {

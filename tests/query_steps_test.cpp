@@ -1,17 +1,17 @@
-#include "query_steps.h"
+#include "surface/query_steps.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "mesh_topology.h"
 #include "nade/corrector.h"
 #include "nade/mesh.h"
 #include "support/hand_checks.h"
 #include "support/meshes.h"
 #include "support/random.h"
 #include "support/sample_hand.h"
-#include "triangle_tree.h"
+#include "surface/mesh_topology.h"
+#include "surface/triangle_tree.h"
 
 namespace nade {
 namespace {

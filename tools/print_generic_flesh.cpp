@@ -1,5 +1,5 @@
-// Prints src/generic_flesh_table.h, the built-in hand's pads as numbers, from the right hand's
-// mesh: print_generic_flesh hands/right.glb >src/generic_flesh_table.h, then make format.
+// Prints src/hand/generic_flesh_table.h, the built-in hand's pads as numbers, from the right hand's
+// mesh: print_generic_flesh hands/right.glb >src/hand/generic_flesh_table.h, then make format.
 
 #include <fmt/format.h>
 

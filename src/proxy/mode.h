@@ -1,8 +1,8 @@
 #pragma once
 
 #include "contact_finder.h"
-#include "object_frame.h"
 #include "state.h"
+#include "tracking/object_frame.h"
 
 namespace nade {
 

@@ -3,19 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clock.h"
 #include "contact_finder.h"
 #include "coupling.h"
 #include "deformation.h"
 #include "friction.h"
-#include "glitch.h"
 #include "inertia.h"
 #include "mode.h"
 #include "nade/assert.h"
-#include "object_frame.h"
 #include "posed_hand.h"
 #include "ramps.h"
 #include "step.h"
+#include "tracking/clock.h"
+#include "tracking/glitch.h"
+#include "tracking/object_frame.h"
 #include "way_out.h"
 
 namespace nade {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "proxy/state.h"
 #include "ramps.h"
-#include "state.h"
 
 namespace nade {
 

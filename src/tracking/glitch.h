@@ -1,6 +1,6 @@
 #pragma once
 
-#include "state.h"
+#include "proxy/state.h"
 
 namespace nade {
 

@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "proxy_hand.h"
-#include "scaled_surface.h"
-#include "state.h"
+#include "proxy/proxy_hand.h"
+#include "proxy/scaled_surface.h"
+#include "proxy/state.h"
 
 namespace nade {
 
