@@ -3,11 +3,16 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "support/meshes.h"
 #include "support/random.h"
@@ -426,6 +431,55 @@ TEST_F(MeshFiles, ConcavePolygonsAreCutInside) {
       EXPECT_NEAR(area, 3.0, 1e-6) << path << " from corner " << first;
     }
   }
+}
+
+/// A comb of 30,000 teeth, a spiral, and a polygon of random corners, which has no inside.
+TEST_F(MeshFiles, LargePolygonsAreCutInTheirTime) {
+  const auto cut_area = [&](const std::vector<Eigen::Vector2d>& corners) {
+    std::string text = "OFF\n" + std::to_string(corners.size()) + " 1 0\n";
+    for (const auto& corner : corners) {
+      text += std::to_string(corner.x()) + " " + std::to_string(corner.y()) + " 0\n";
+    }
+    text += std::to_string(corners.size());
+    for (std::size_t i = 0; i < corners.size(); ++i) text += " " + std::to_string(i);
+    const auto file = load_mesh(write("large.off", text));
+    double area = 0.0;
+    if (!file) return area;
+    EXPECT_EQ(file->soup.triangles.size(), corners.size() - 2);
+    for (const auto& [a, b, c] : file->soup.triangles) {
+      const auto& v = file->soup.vertices;
+      area += static_cast<double>((v[b] - v[a]).cross(v[c] - v[a]).norm()) / 2.0;
+    }
+    return area;
+  };
+  constexpr int kCorners = 60'000;
+  std::vector<Eigen::Vector2d> comb{{0.0, -1.0}, {kCorners - 1.0, -1.0}};
+  for (int i = kCorners - 1; i >= 0; --i) comb.emplace_back(i, i % 2);
+  EXPECT_NEAR(cut_area(comb), 1.5 * (kCorners - 1), 1e-3 * kCorners);
+  std::vector<Eigen::Vector2d> spiral;
+  const auto at = [](double turn, double radius) {
+    return Eigen::Vector2d(radius * std::cos(turn), radius * std::sin(turn));
+  };
+  for (int i = 0; i <= kCorners / 2; ++i) spiral.push_back(at(0.01 * i, 1.0 + 0.01 * i));
+  for (int i = kCorners / 2; i >= 0; --i) spiral.push_back(at(0.01 * i, 0.99 + 0.01 * i));
+  const double turns = 0.01 * kCorners / 2;
+  EXPECT_NEAR(cut_area(spiral), 0.01 * (0.995 * turns + turns * turns / 2), 1e-2 * turns);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> place;
+  std::vector<Eigen::Vector2d> tangle(kCorners);
+  for (auto& corner : tangle) corner = {place(random), place(random)};
+  const auto start = std::chrono::steady_clock::now();
+  cut_area(tangle);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+}
+
+TEST_F(MeshFiles, AHeaderOfBlender24) {
+  const std::string text =
+      "ply\nformat ascii 1.0\nCreated by Blender3D 247 - www.blender.org, source file: \n"
+      "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar uint vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  EXPECT_EQ(message(write("a.ply", text)), "");
 }
 
 TEST_F(MeshFiles, SpellingsOfOffAndStl) {

@@ -90,8 +90,6 @@ class PlyReader {
           return words_.expected("a format", name);
         }
         words_.skip_line();
-      } else if (keyword == "comment" || keyword == "obj_info") {
-        words_.skip_line();
       } else if (keyword == "element") {
         Element& element = elements_.emplace_back();
         element.name = words_.word();
@@ -100,6 +98,8 @@ class PlyReader {
           return words_.expected("a number of elements", count);
       } else if (keyword == "property" && !elements_.empty()) {
         if (std::optional<Error> error = read_property()) return error;
+      } else if (is_comment(keyword)) {
+        words_.skip_line();
       } else {
         return words_.expected("'element', 'property' or 'end_header'", keyword);
       }
@@ -112,6 +112,12 @@ class PlyReader {
     at_ = std::min(at_ + (two ? 2 : 1), file_.content.size());
     if (std::optional<Error> error = check_coordinates()) return error;
     return check_faces();
+  }
+
+  /// Blender 2.4 wrote one that does not say so.
+  [[nodiscard]] bool is_comment(std::string_view keyword) const {
+    if (keyword == "comment" || keyword == "obj_info") return true;
+    return elements_.empty() && !keyword.empty() && keyword != "property";
   }
 
   [[nodiscard]] std::optional<Error> check_coordinates() const {
