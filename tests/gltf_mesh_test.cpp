@@ -189,6 +189,20 @@ TEST(GltfMesh, ExtensionsThatLeaveTheShapeAreAccepted) {
   expect_refused(file, "requires the extension EXT_mesh_gpu_instancing, which is not read");
 }
 
+TEST(GltfMesh, ARepeatedNodeIsThereOnceAndThatIsSaid) {
+  GltfFile file("nade_repeated");
+  file.gltf["nodes"][0]["name"] = "leaf";
+  file.gltf["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = 0;
+  file.gltf["extensionsUsed"] = nlohmann::json::array({"EXT_mesh_gpu_instancing"});
+  const auto mesh = load_mesh(file.write());
+  ASSERT_TRUE(mesh.ok()) << mesh.error().message;
+  EXPECT_EQ(mesh->soup.triangles.size(), 1U);
+  ASSERT_EQ(mesh->warnings.size(), 1U);
+  EXPECT_TRUE(mesh->warnings[0].ends_with(
+      "node 'leaf' is there once: EXT_mesh_gpu_instancing, which repeats it, is not read"))
+      << mesh->warnings[0];
+}
+
 TEST(GltfMesh, HiddenNodesAreNotSolid) {
   GltfFile file("nade_hidden");
   file.gltf["nodes"] = Json::parse(R"([{"mesh":0},

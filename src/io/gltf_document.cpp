@@ -7,11 +7,11 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <initializer_list>
 #include <limits>
 #include <map>
 #include <utility>
 
+#include "gltf_check.h"
 #include "gltf_resource.h"
 
 // Based on: The Khronos Group. glTF 2.0 Specification. 2021.
@@ -50,7 +50,7 @@ constexpr std::array<std::string_view, 32> kShapeless{"ADOBE_materials_",
                                                       "KHR_node_hoverability",
                                                       "KHR_node_selectability",
                                                       "KHR_physics_",
-                                                      "KHR_techniques_webgl",
+                                                      "KHR_technique",
                                                       "KHR_texture_",
                                                       "KHR_xmp",
                                                       "MSFT_lod",
@@ -62,7 +62,6 @@ constexpr std::array<std::string_view, 32> kShapeless{"ADOBE_materials_",
                                                       "XMP"};
 /// What is read.
 constexpr std::array<std::string_view, 2> kRead{"KHR_mesh_quantization", "KHR_node_visibility"};
-constexpr std::string_view kCompression = "_compression";
 
 /// What of a file is handed on to tinygltf.
 constexpr std::array<std::string_view, 12> kUsed{"accessors", "animations", "asset",  "bufferViews",
@@ -105,8 +104,7 @@ class DocumentReader {
     if (status.ok()) status = check_version();
     if (status.ok()) status = check_extensions();
     if (status.ok()) status = check_counts();
-    if (status.ok()) status = check_numbers();
-    if (status.ok()) status = check_compressed();
+    if (status.ok()) status = check_elements(path_, document_.json);
     if (status.ok()) status = read_buffers();
     if (!status) return status.error();
     leave_used();
@@ -187,15 +185,11 @@ class DocumentReader {
                              version.is_null() ? "none" : shortened(version.dump())));
   }
 
-  [[nodiscard]] Error compressed(std::string_view by) const {
-    return wrong(fmt::format("compressed by {}, which is not read", shortened(by)));
-  }
-
   [[nodiscard]] Status check_extensions() const {
     for (const Json& name : list(document_.json, "extensionsRequired")) {
       if (!name.is_string()) continue;
       const auto& needed = name.get_ref<const std::string&>();
-      if (needed.ends_with(kCompression)) return compressed(needed);
+      if (is_compression(needed)) return compressed(path_, needed);
       const bool is_shapeless =
           std::any_of(kShapeless.begin(), kShapeless.end(),
                       [&](std::string_view begin) { return needed.starts_with(begin); });
@@ -217,38 +211,6 @@ class DocumentReader {
       }
     }
     return ok_status();
-  }
-
-  /// The extension that an element's data are compressed by; empty where there is none.
-  [[nodiscard]] static std::string_view compression_of(const Json& element) {
-    const auto extensions = element.find("extensions");
-    if (extensions == element.end() || !extensions->is_object()) return {};
-    for (auto each = extensions->begin(); each != extensions->end(); ++each) {
-      if (std::string_view(each.key()).ends_with(kCompression)) return each.key();
-    }
-    return {};
-  }
-
-  /// Compressed meshes may have their data in the plain form too, and are then read.
-  [[nodiscard]] Status check_compressed() const {
-    const Json& accessors = list(document_.json, "accessors");
-    const auto is_empty = [&](const Json& index) {
-      if (!index.is_number_unsigned() || index.get<std::size_t>() >= accessors.size()) return false;
-      const Json& accessor = accessors[index.get<std::size_t>()];
-      return accessor.is_object() && !accessor.contains("bufferView") &&
-             !accessor.contains("sparse");
-    };
-    return each("mesh", list(document_.json, "meshes"), [&](const Json& mesh, const std::string&) {
-      return each("primitive", list(mesh, "primitives"),
-                  [&](const Json& primitive, const std::string&) -> Status {
-                    const std::string_view by = compression_of(primitive);
-                    const Json attributes = primitive.value("attributes", Json::object());
-                    const bool empty = is_empty(primitive.value("indices", Json())) ||
-                                       std::any_of(attributes.begin(), attributes.end(), is_empty);
-                    if (by.empty() || !empty) return ok_status();
-                    return compressed(by);
-                  });
-    });
   }
 
   /// Reads the buffers, and numbers them in the place of their uris.
@@ -283,7 +245,7 @@ class DocumentReader {
     } else if (!chunk_.empty()) {
       bytes = std::exchange(chunk_, {});
     } else if (const std::string_view by = compression_of(buffer); !by.empty()) {
-      return compressed(by);
+      return compressed(path_, by);
     } else {
       return wrong(
           fmt::format("{}: expected a uri that says where its bytes are, found none", where));
@@ -299,6 +261,7 @@ class DocumentReader {
   }
 
   void leave_used() {
+    static const Json::json_pointer kRepeated("/extensions/" + std::string(kInstancing));
     Json& all = document_.json;
     document_.pictures = list(all, "images");
     Json used = Json::object();
@@ -312,8 +275,10 @@ class DocumentReader {
       }
       for (Json& node : kept) {
         const bool hidden = is_hidden(node);
+        const bool repeated = node.contains(kRepeated);
         strip(node);
         if (hidden) node["extensions"]["KHR_node_visibility"]["visible"] = false;
+        if (repeated) node[kRepeated] = Json::object();
       }
     }
     all = std::move(used);
@@ -331,97 +296,6 @@ class DocumentReader {
       if (!other) left.push_back(channel);
     }
     animation["channels"] = std::move(left);
-  }
-
-  /// What tinygltf takes for left out where it is not as it should be.
-  [[nodiscard]] Status check_numbers() const {
-    Status status =
-        each("accessor", list(document_.json, "accessors"),
-             [&](const Json& accessor, const std::string& where) {
-               Status good = whole(accessor, where, {"bufferView", "byteOffset", "count"});
-               const Json sparse = accessor.value("sparse", Json::object());
-               for (const char* part : {"indices", "values"}) {
-                 if (!good || !sparse.is_object() || !sparse.contains(part)) continue;
-                 good = whole(sparse[part], fmt::format("{}: sparse: {}", where, part),
-                              {"bufferView", "byteOffset"});
-               }
-               return good;
-             });
-    if (status.ok()) {
-      status =
-          each("buffer view", list(document_.json, "bufferViews"),
-               [&](const Json& view, const std::string& where) {
-                 return whole(view, where, {"buffer", "byteOffset", "byteLength", "byteStride"});
-               });
-    }
-    if (status.ok()) {
-      status = each("mesh", list(document_.json, "meshes"),
-                    [&](const Json& mesh, const std::string& where) {
-                      return each(where + ": primitive", list(mesh, "primitives"),
-                                  [&](const Json& primitive, const std::string& place) {
-                                    return whole(primitive, place, {"indices", "mode"});
-                                  });
-                    });
-    }
-    if (status.ok()) {
-      status =
-          each("node", list(document_.json, "nodes"),
-               [&](const Json& node, const std::string& where) { return check_node(node, where); });
-    }
-    return status;
-  }
-
-  [[nodiscard]] Status check_node(const Json& node, const std::string& where) const {
-    struct Transform {
-      const char* key;
-      std::size_t count;
-    };
-    for (const auto& [key, count] : {Transform{"translation", 3}, Transform{"rotation", 4},
-                                     Transform{"scale", 3}, Transform{"matrix", 16}}) {
-      if (!node.contains(key)) continue;
-      const Json& value = node[key];
-      const bool numbers =
-          value.is_array() && std::all_of(value.begin(), value.end(),
-                                          [](const Json& number) { return number.is_number(); });
-      if (numbers && value.size() == count) continue;
-      return wrong(fmt::format("{}: {}: expected {} numbers, found {}", where, key, count,
-                               numbers ? std::to_string(value.size()) : shortened(value.dump())));
-    }
-    const Json children = node.value("children", Json::array());
-    const bool known = children.is_array() &&
-                       std::all_of(children.begin(), children.end(),
-                                   [](const Json& child) { return child.is_number_integer(); });
-    if (known) return whole(node, where, {"mesh", "skin"});
-    return wrong(fmt::format("{}: children: expected the numbers of nodes, found {}", where,
-                             shortened(children.dump())));
-  }
-
-  /// An array of a document, empty where it has none.
-  [[nodiscard]] static const Json& list(const Json& object, std::string_view key) {
-    static const Json kNone = Json::array();
-    const auto found = object.find(key);
-    return found != object.end() && found->is_array() ? *found : kNone;
-  }
-
-  template <class Check>
-  [[nodiscard]] Status each(const std::string& what, const Json& elements, Check check) const {
-    for (std::size_t i = 0; i < elements.size(); ++i) {
-      if (!elements[i].is_object()) continue;
-      Status status = check(elements[i], fmt::format("{} {}", what, i));
-      if (!status) return status;
-    }
-    return ok_status();
-  }
-
-  [[nodiscard]] Status whole(const Json& object, const std::string& where,
-                             std::initializer_list<const char*> keys) const {
-    for (const char* key : keys) {
-      const auto found = object.find(key);
-      if (found == object.end() || found->is_number_unsigned()) continue;
-      return wrong(fmt::format("{}: {}: expected a whole number from 0 on, found {}", where, key,
-                               shortened(found->dump())));
-    }
-    return ok_status();
   }
 
   const std::string& path_;

@@ -9,6 +9,9 @@
 
 namespace nade::gltf {
 
+/// Repeats a node's mesh. It is not read; the nodes that have it keep its name.
+inline constexpr std::string_view kInstancing = "EXT_mesh_gpu_instancing";
+
 /// A .glb or .gltf file taken apart, with nothing of it left that we do not use.
 // Json moves as noexcept does, whatever its own checks might throw.
 // NOLINTNEXTLINE(bugprone-exception-escape)

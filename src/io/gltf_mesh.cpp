@@ -1,8 +1,12 @@
+#include <fmt/format.h>
+
 #include <optional>
 #include <string_view>
 #include <utility>
 
 #include "gltf_animation.h"
+#include "gltf_document.h"
+#include "gltf_resource.h"
 #include "gltf_rig.h"
 #include "mesh_formats.h"
 
@@ -55,7 +59,13 @@ Result<MeshFile> read_gltf(const std::string& path) {
   }
   file.animations = gltf::animations_of(*model);
   for (const std::size_t i : rig->shown) {
-    if (auto place = place_of(model->nodes[i], rig->worlds[i])) {
+    const tinygltf::Node& node = model->nodes[i];
+    if (node.mesh >= 0 && node.extensions.count(std::string(gltf::kInstancing)) > 0) {
+      file.warnings.push_back(
+          fmt::format("{}: node '{}' is there once: {}, which repeats it, is not read", path,
+                      gltf::shortened(node.name), gltf::kInstancing));
+    }
+    if (auto place = place_of(node, rig->worlds[i])) {
       file.places.push_back(std::move(*place));
     }
   }

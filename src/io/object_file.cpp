@@ -143,7 +143,10 @@ Result<LoadedObject> make_mesh(const std::string& spec, const MeshSource& source
   LoadedObject object;
   object.spec = spec;
   object.file = path;
-  object.warnings = warnings_about((*surface)->report(), spec);
+  object.warnings = std::move(file->warnings);
+  for (std::string& warning : warnings_about((*surface)->report(), spec)) {
+    object.warnings.push_back(std::move(warning));
+  }
   if (animation && !animation->warning().empty()) object.warnings.push_back(animation->warning());
   object.places = std::move(file->places);
   object.surface = std::move(surface).value();
@@ -294,7 +297,7 @@ std::string size_hint(const LoadedObject& object, double scale) {
   std::string scales;
   for (const Unit& unit : kUnits) {
     if (!fits(unit.scale * size_m)) continue;
-    scales += fmt::format("{}{:.3g} {}", scales.empty() ? "; --scale " : ", ", scale * unit.scale,
+    scales += fmt::format("{}{:.4g} {}", scales.empty() ? "; --scale " : ", ", scale * unit.scale,
                           unit.when);
   }
   return fmt::format("{:.3g} m large{}", size_m, scales);

@@ -35,6 +35,7 @@ struct MeshFile {
   std::vector<MeshPlace> places;
   std::vector<MeshPart> parts{};            ///< of a glTF file; of others none
   std::vector<MeshAnimation> animations{};  ///< of a glTF file
+  std::vector<std::string> warnings{};      ///< of what was not read, a sentence each
 };
 
 /// A file name's ending in lower case, ".glb" for "Dog.GLB"; empty where there is none.
