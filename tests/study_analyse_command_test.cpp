@@ -111,7 +111,7 @@ TEST_F(StudyAnalyseCommand, NoTextOfATableRunsACommand) {
   for (std::size_t at = 0; (at = hostile.find('"', at)) != std::string::npos; at += 2) {
     hostile.insert(at, 1, '"');
   }
-  hostile = "\"" + hostile + "\nsystem('touch PWNED')\r\x01\x1b\"";
+  hostile = "\"" + hostile + "\nsystem('touch PWNED')\r\x01\x1b \xFF\"";
   std::string table = "participant,object,method,question,answer\n";
   for (const char* person : {"P1", "P2", "P3"}) {
     for (const std::string& method : {std::string("none"), hostile}) {
@@ -133,6 +133,7 @@ TEST_F(StudyAnalyseCommand, NoTextOfATableRunsACommand) {
     const auto is_control = [](char c) { return c != '\n' && (c == 0x7F || (c >= 0 && c < 0x20)); };
     EXPECT_TRUE(std::none_of(text.begin(), text.end(), is_control)) << script;
     EXPECT_EQ(text.find("\nsystem"), std::string::npos) << script;
+    EXPECT_EQ(text.find('\xFF'), std::string::npos) << script;
   }
 }
 
@@ -164,6 +165,14 @@ TEST_F(StudyAnalyseCommand, WhatCannotBeAnalysedIsNamed) {
   EXPECT_EQ(nade("study analyse answers.csv").status, 2);
   EXPECT_EQ(nade("study analyse answers.csv -o out --language fr").status, 2);
   EXPECT_EQ(files(), std::vector<std::string>{"answers.csv"});
+}
+
+TEST_F(StudyAnalyseCommand, NoTextOfATableSteersTheTerminal) {
+  write_file(path("answers.csv"),
+             "participant,object,method,question,answer\nP1,dog,none,Q1,\x1b[2Jx\xE9\n");
+  const Ran ran = nade("study analyse answers.csv -o out");
+  EXPECT_EQ(ran.status, 1);
+  EXPECT_NE(ran.err.find("' [2Jx\xEF\xBF\xBD'"), std::string::npos) << ran.err;
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "nade/io/plain_text.h"
+
 namespace nade::cli {
 namespace {
 
@@ -17,10 +19,12 @@ bool person_looks() { return ::isatty(STDERR_FILENO) == 1; }
 
 }  // namespace
 
-void warn(const std::string& sentence) { std::fprintf(stderr, "nade: %s\n", sentence.c_str()); }
+void warn(const std::string& sentence) {
+  std::fprintf(stderr, "nade: %s\n", plain_text(sentence).c_str());
+}
 
 void say(const std::string& line) {
-  if (person_looks()) std::fprintf(stderr, "%s\n", line.c_str());
+  if (person_looks()) std::fprintf(stderr, "%s\n", plain_text(line).c_str());
 }
 
 Progress::Progress(std::string what, std::size_t total, std::string unit)

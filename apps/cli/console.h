@@ -6,7 +6,7 @@
 
 namespace nade::cli {
 
-/// One sentence on stderr about something odd that did not stop the work.
+/// One sentence on stderr: why the work ended, or what was odd and did not stop it.
 void warn(const std::string& sentence);
 
 /// One line on stderr where a person is looking; nothing in a pipe.

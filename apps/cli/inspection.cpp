@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nade/io/plain_text.h"
+
 namespace nade::cli {
 namespace {
 
@@ -164,7 +166,7 @@ void append_hand(std::string& text, const std::string& side, const Json& hand) {
 }  // namespace
 
 void append_row(std::string& text, std::string_view name, const std::string& value) {
-  fmt::format_to(std::back_inserter(text), "{:<22}{}\n", name, value);
+  fmt::format_to(std::back_inserter(text), "{:<22}{}\n", plain_text(name), plain_text(value));
 }
 
 void Range::add(double value) {
@@ -247,7 +249,8 @@ std::string as_text(const Json& report) {
   for (const auto& [side, hand] : report["hands"].items()) append_hand(text, side, hand);
   if (report["hands"].empty()) text += "\nno hand in any frame\n";
   for (const auto& warning : report["warnings"]) {
-    fmt::format_to(std::back_inserter(text), "\nwarning: {}\n", warning.get<std::string>());
+    fmt::format_to(std::back_inserter(text), "\nwarning: {}\n",
+                   plain_text(warning.get<std::string>()));
   }
   return text;
 }

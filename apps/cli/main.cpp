@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "console.h"
 
 namespace {
 
@@ -44,8 +45,7 @@ int parse_error(const CLI::App& app, const CLI::ParseError& error) {
     command = command->get_subcommands().front();
     name += " " + command->get_name();
   }
-  std::fprintf(stderr, "nade: %s (%s --help tells the rest)\n",
-               sentence_of(*command, error).c_str(), name.c_str());
+  nade::cli::warn(fmt::format("{} ({} --help tells the rest)", sentence_of(*command, error), name));
   return kMisuse;
 }
 
@@ -96,7 +96,7 @@ int run(int argc, char** argv) {
   const nade::Status words = check_words(app);
   const nade::Status status = words ? action() : words;
   if (status.ok()) return kDone;
-  std::fprintf(stderr, "nade: %s\n", status.error().message.c_str());
+  nade::cli::warn(status.error().message);
   return status.error().code == nade::ErrorCode::out_of_range ? kMisuse : kCouldNot;
 }
 

@@ -8,6 +8,7 @@
 #include "inspection.h"
 #include "nade/io/mesh_file.h"
 #include "nade/io/object_file.h"
+#include "nade/io/plain_text.h"
 
 namespace nade::cli {
 namespace {
@@ -84,7 +85,8 @@ std::string model_as_text(const Json& report) {
   }
   for (const Json& place : report["places"]) append_row(text, "place", place.get<std::string>());
   for (const Json& warning : report["warnings"]) {
-    fmt::format_to(std::back_inserter(text), "\nwarning: {}\n", warning.get<std::string>());
+    fmt::format_to(std::back_inserter(text), "\nwarning: {}\n",
+                   plain_text(warning.get<std::string>()));
   }
   return text;
 }

@@ -12,6 +12,7 @@
 #include "commands.h"
 #include "console.h"
 #include "nade/io/output_file.h"
+#include "nade/io/plain_text.h"
 #include "nade/study/check.h"
 #include "nade/study/export.h"
 #include "nade/study/plan.h"
@@ -77,13 +78,15 @@ Status run_check(const std::string& folder) {
   bool simulated = false;
   for (const study::CheckedParticipant& line : check->participants) {
     simulated = simulated || line.origin == study::Origin::simulated;
-    std::printf("%-14s %4zu of %zu %8zu %8zu %9.1f %9zu%s\n", line.participant.c_str(),
+    std::printf("%-14s %4zu of %zu %8zu %8zu %9.1f %9zu%s\n", plain_text(line.participant).c_str(),
                 line.finished, line.trials, line.skipped, line.answers, line.motion_s,
                 line.problems, line.origin == study::Origin::simulated ? "  SIMULATED" : "");
   }
-  for (const std::string& note : check->notes) std::printf("note: %s\n", note.c_str());
+  for (const std::string& note : check->notes) {
+    std::printf("note: %s\n", plain_text(note).c_str());
+  }
   for (const std::string& problem : check->problems) {
-    std::printf("problem: %s\n", problem.c_str());
+    std::printf("problem: %s\n", plain_text(problem).c_str());
   }
   if (check->problems.empty()) return ok_status();
   return Error{ErrorCode::bad_value,

@@ -17,6 +17,7 @@
 #include "mirror.h"
 #include "motion_files.h"
 #include "nade/io/output_file.h"
+#include "nade/io/plain_text.h"
 #include "panel_log.h"
 
 namespace nade::xr {
@@ -55,7 +56,9 @@ class Interruptible {
   struct sigaction before_term_ {};
 };
 
-void say(const std::string& sentence) { std::fprintf(stderr, "nade: %s\n", sentence.c_str()); }
+void say(const std::string& sentence) {
+  std::fprintf(stderr, "nade: %s\n", plain_text(sentence).c_str());
+}
 
 /// A headset, and our session on it, which is the first to go.
 struct Opened {

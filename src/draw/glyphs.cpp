@@ -12,6 +12,7 @@
 #include "embedded.h"
 #include "nade/assert.h"
 #include "nade/draw/text.h"
+#include "nade/io/plain_text.h"
 
 namespace nade::draw {
 namespace {
@@ -56,41 +57,17 @@ const Font& second_font() {
 /// Marks a glyph's number as one of the second font's, whose numbers end below.
 constexpr int kOfSecond = 1 << 16;
 
-int find_glyph(int character) {
-  if (character < 0) return 0;
-  const int glyph = stbtt_FindGlyphIndex(&main_font().info, character);
+int find_glyph(char32_t character) {
+  if (character == kReplacement) return 0;
+  const auto code = static_cast<int>(character);
+  const int glyph = stbtt_FindGlyphIndex(&main_font().info, code);
   if (glyph != 0 || !second_font().read) return glyph;
-  const int other = stbtt_FindGlyphIndex(&second_font().info, character);
+  const int other = stbtt_FindGlyphIndex(&second_font().info, code);
   return other != 0 ? other | kOfSecond : 0;
 }
 
 const stbtt_fontinfo& font_of(int glyph) {
   return (glyph & kOfSecond) != 0 ? second_font().info : main_font().info;
-}
-
-/// Takes one character off the front of `text`; -1 where the bytes are none.
-int next_character(std::string_view& text) {
-  const auto first = static_cast<unsigned char>(text.front());
-  const std::size_t length = first < 0x80   ? 1
-                             : first < 0xC0 ? 0
-                             : first < 0xE0 ? 2
-                             : first < 0xF0 ? 3
-                                            : 4;
-  if (length == 0 || first > 0xF4 || length > text.size()) {
-    text.remove_prefix(1);
-    return -1;
-  }
-  int code = length == 1 ? first : first & (0x7F >> length);
-  for (std::size_t i = 1; i < length; ++i) {
-    const auto byte = static_cast<unsigned char>(text[i]);
-    if ((byte & 0xC0) != 0x80) {
-      text.remove_prefix(i);
-      return -1;
-    }
-    code = code << 6 | (byte & 0x3F);
-  }
-  text.remove_prefix(length);
-  return code;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "answer_sheet.h"
+#include "nade/io/plain_text.h"
 #include "nade/study/figure.h"
 #include "nade/study/line_break.h"
 
@@ -90,13 +91,12 @@ Layout layout_of(const Sheet& sheet) {
 }
 
 /// A line as a string of gnuplot's. In single quotes it replaces nothing, where in double ones it
-/// runs what stands in backticks. Control characters become blanks.
+/// runs what stands in backticks.
 std::string in_quotes(std::string_view text) {
   std::string result = "'";
-  for (const char character : text) {
-    const auto code = static_cast<unsigned char>(character);
+  for (const char character : plain_text(text)) {
     if (character == '\'') result += '\'';
-    result += code < 0x20 || code == 0x7F ? ' ' : character;
+    result += character;
   }
   return result + "'";
 }
