@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -37,11 +38,12 @@ class StageFiles : public StageTest {
 
   void write_obj(const std::string& name, const std::string& material) {
     std::ofstream(path(name + ".mtl")) << "newmtl board\n" << material;
-    std::ofstream(path(name + ".obj")) << "mtllib " << name << ".mtl\n"
-                                       << "v -0.1 0 -0.1\nv 0.1 0 -0.1\nv 0.1 0 0.1\n"
-                                          "v -0.1 0 0.1\n"
-                                          "vt 0 1\nvt 1 1\nvt 1 0\nvt 0 0\n"
-                                          "usemtl board\nf 1/1 4/4 3/3\nf 1/1 3/3 2/2\n";
+    std::ofstream(path(name + ".obj"))
+        << "mtllib " << std::filesystem::path(name).filename().string() << ".mtl\n"
+        << "v -0.1 0 -0.1\nv 0.1 0 -0.1\nv 0.1 0 0.1\n"
+           "v -0.1 0 0.1\n"
+           "vt 0 1\nvt 1 1\nvt 1 0\nvt 0 0\n"
+           "usemtl board\nf 1/1 4/4 3/3\nf 1/1 3/3 2/2\n";
   }
 
   /// As a .gltf file whose picture is where `image` says.
@@ -148,6 +150,29 @@ TEST_F(StageFiles, MissingTextureIsSaidAndTheObjectDrawn) {
   ASSERT_EQ(stage_->warnings().size(), 1u);
   EXPECT_NE(stage_->warnings().front().find("nowhere.png"), std::string::npos);
   EXPECT_GT(red_share(image, kWidth / 2, kHeight / 2), 0.65);
+}
+
+TEST_F(StageFiles, TextureOutsideTheFolderIsNotOpened) {
+  std::filesystem::create_directory(path("below"));
+  write_obj("below/out", "Kd 0.8 0.1 0.1\nmap_Kd ../board.png\n");
+  const Image image = board_picture("below/out.obj");
+  ASSERT_EQ(stage_->warnings().size(), 1u);
+  EXPECT_TRUE(stage_->warnings().front().ends_with("'../board.png' lies outside its folder"))
+      << stage_->warnings().front();
+  EXPECT_GT(red_share(image, kWidth / 2, kHeight / 2), 0.65);
+}
+
+/// Our reader of solids knows spellings that the reader of colours does not.
+TEST_F(StageFiles, WhatIsSolidIsDrawn) {
+  const std::string ply =
+      "ply\rformat ascii 1.0\relement vertex 4\rproperty float x\rproperty float y\r"
+      "property float z\relement face 1\rproperty list uchar int vertex_indices\rend_header\r"
+      "-0.1 0 -0.1\r-0.1 0 0.1\r0.1 0 0.1\r0.1 0 -0.1\r4 0 1 2 3\r";
+  test::write_file(path("board.ply"), ply);
+  show(path("board.ply"));
+  const DepthMap map =
+      renderer_->depths(stage_->object_only(), above(0.5), kWidth, kHeight, Faces::front);
+  EXPECT_GT(count_covered(map), 3000u);
 }
 
 TEST_F(StageFiles, MissingTextureOfAGltfFileIsSaidAndTheObjectDrawn) {

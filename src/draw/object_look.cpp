@@ -263,12 +263,25 @@ DressedObject dress_soup(const TriangleSoup& soup) {
   return {{std::move(mesh)}, {}};
 }
 
+/// In one colour where the reader of looks finds other triangles than the solid has.
+DressedObject dress_plain(const std::string& path, const TriangleSoup& soup) {
+  Result<DressedObject> dressed = load_plain_meshes(path);
+  std::size_t triangles = 0;
+  if (dressed) {
+    for (const DrawnMesh& mesh : dressed->meshes) triangles += mesh.triangles.size();
+  }
+  if (triangles == soup.triangles.size()) return std::move(*dressed);
+  DressedObject plain = dress_soup(soup);
+  plain.warnings.push_back(path + ": drawn in one colour, for its own cannot be read");
+  return plain;
+}
+
 /// A mesh file in its own materials, or, where its format has none, in one colour.
 Result<DressedObject> dress_file(const std::string& path, const LoadedObject& object) {
   const std::string ending = ending_of(path);
   if (ending == ".glb" || ending == ".gltf") return load_gltf_meshes(path);
-  if (ending == ".obj" || ending == ".ply") return load_plain_meshes(path);
-  return dress_soup(object.soup.value_or(TriangleSoup{}));
+  const TriangleSoup soup = object.soup.value_or(TriangleSoup{});
+  return ending == ".obj" || ending == ".ply" ? dress_plain(path, soup) : dress_soup(soup);
 }
 
 /// Most of the triangles wound against the solid's own surface: turned, as the surface was.

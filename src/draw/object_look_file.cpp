@@ -1,5 +1,4 @@
 #include <assimp/material.h>
-#include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
@@ -10,9 +9,11 @@
 #include <filesystem>
 #include <map>
 
+#include "mesh_words.h"
 #include "nade/io/mesh_file.h"
 #include "obj_text.h"
 #include "object_look.h"
+#include "whole_file.h"
 
 namespace nade::draw {
 namespace {
@@ -24,7 +25,6 @@ struct Source {
   const aiScene& scene;
   std::string path;
   std::map<std::string, std::shared_ptr<const Image>> textures{};
-  std::uint32_t vertices = 0;  ///< so far, as `load_mesh` counts them
   DressedObject dressed{};
 };
 
@@ -34,7 +34,11 @@ std::shared_ptr<const Image> load_texture(const std::string& name, Source& sourc
   std::shared_ptr<const Image>& texture = source.textures[name];
   std::string file = name;
   std::replace(file.begin(), file.end(), '\\', '/');
-  const Result<Image> image = load_image((fs::path(source.path).parent_path() / file).string());
+  file = (fs::path(source.path).parent_path() / file).string();
+  const Result<Image> image =
+      io::is_below_folder_of(source.path, file)
+          ? load_image(file)
+          : Error{ErrorCode::bad_value, fmt::format("'{}' lies outside its folder", name)};
   if (image) {
     texture = std::make_shared<const Image>(*image);
   } else {
@@ -72,10 +76,9 @@ void read_material(const aiMaterial& from, Source& source, DrawnMesh& mesh) {
   if (mesh.texture != nullptr) material.base_color = Color::Ones();
 }
 
-void read_vertices(const aiMesh& from, Source& source, DrawnMesh& mesh) {
+void read_vertices(const aiMesh& from, DrawnMesh& mesh) {
   for (unsigned i = 0; i < from.mNumVertices; ++i) {
     mesh.positions.emplace_back(from.mVertices[i].x, from.mVertices[i].y, from.mVertices[i].z);
-    mesh.sources.push_back(source.vertices++);
     if (from.HasNormals()) {
       const aiVector3D& n = from.mNormals[i];
       mesh.normals.emplace_back(Eigen::Vector3f(n.x, n.y, n.z).normalized());
@@ -90,12 +93,14 @@ void read_vertices(const aiMesh& from, Source& source, DrawnMesh& mesh) {
 
 void append(const aiMesh& from, Source& source) {
   DrawnMesh mesh;
-  read_vertices(from, source, mesh);
+  read_vertices(from, mesh);
+  TriangleSoup soup{mesh.positions, {}};
   for (unsigned f = 0; f < from.mNumFaces; ++f) {
     const aiFace& face = from.mFaces[f];
-    if (face.mNumIndices != 3) continue;
-    mesh.triangles.push_back({face.mIndices[0], face.mIndices[1], face.mIndices[2]});
+    // One that is too winding is missing then, which the count tells.
+    if (!io::add_polygon(soup, {face.mIndices, face.mNumIndices})) return;
   }
+  mesh.triangles = std::move(soup.triangles);
   if (mesh.triangles.empty()) return;
   if (from.mMaterialIndex < source.scene.mNumMaterials) {
     read_material(*source.scene.mMaterials[from.mMaterialIndex], source, mesh);
@@ -124,7 +129,7 @@ Result<DressedObject> load_plain_meshes(const std::string& path) {
       const Status status = io::read_as_plain_obj(importer, path);
       if (!status) return status.error();
     }
-    const aiScene* const scene = importer.ReadFile(path, aiProcess_Triangulate);
+    const aiScene* const scene = importer.ReadFile(path, 0);
     if (scene == nullptr || scene->mRootNode == nullptr) {
       return unreadable(importer.GetErrorString());
     }
