@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <limits>
 #include <numbers>
+#include <string>
 
 #include "nade/assert.h"
 #include "proxy/proxy_hand.h"
@@ -91,6 +94,67 @@ bool is_near(const HandPose& drawn, const HandPose& tracked) {
   return true;
 }
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kLeast = std::numeric_limits<double>::min();
+
+/// A number of the options, and what it may be.
+struct OptionRange {
+  const char* name;
+  double value;
+  double least;
+  double most;
+};
+
+Error bad_option(const std::string& name, const std::string& expected) {
+  return {ErrorCode::out_of_range, name + ": expected " + expected};
+}
+
+Status first_error(std::initializer_list<OptionRange> options) {
+  for (const OptionRange& option : options) {
+    if (option.value >= option.least && option.value <= option.most) continue;
+    const std::string from = option.least == kLeast ? "above 0" : std::to_string(option.least);
+    const std::string to = option.most < std::numeric_limits<double>::max()
+                               ? " to " + std::to_string(option.most)
+                               : std::string();
+    return bad_option(option.name, from + to + ", found " + std::to_string(option.value));
+  }
+  return ok_status();
+}
+
+/// The joint that a joint is turned and shifted against; of the wrist itself.
+std::size_t joint_before(std::size_t joint) {
+  for (std::size_t d = 0; d < kDigitCount; ++d) {
+    if (joint == index_of(joints_of(digit_at(d)).metacarpal)) return index_of(Joint::wrist);
+  }
+  return joint == index_of(Joint::palm) ? index_of(Joint::wrist) : joint - 1;
+}
+
+/// What was corrected from `tracked` to `drawn`, on `newer`: the wrist's shift and turn in the
+/// world, every other joint's against the one before it.
+HandPose carried_over(const HandPose& tracked, const HandPose& drawn, const HandPose& newer) {
+  HandPose result = newer;
+  const std::size_t wrist = index_of(Joint::wrist);
+  const Pose& from = tracked.joints[wrist];
+  const Pose& to = drawn.joints[wrist];
+  result.joints[wrist].position += to.position - from.position;
+  result.joints[wrist].rotation =
+      (to.rotation * from.rotation.conjugate() * newer.joints[wrist].rotation).normalized();
+  const auto local = [](const HandPose& hand, std::size_t joint) {
+    return hand.joints[joint_before(joint)].inverse() * hand.joints[joint];
+  };
+  for (std::size_t joint = 0; joint < kJointCount; ++joint) {
+    if (joint == wrist) continue;
+    const Pose before = local(tracked, joint);
+    const Pose after = local(drawn, joint);
+    Pose now = local(newer, joint);
+    now.position += after.position - before.position;
+    now.rotation = after.rotation * before.rotation.conjugate() * now.rotation;
+    result.joints[joint] = result.joints[joint_before(joint)] * now;
+    result.joints[joint].rotation.normalize();
+  }
+  return result;
+}
+
 bool touches(const Contacts& contacts) {
   return std::any_of(contacts.begin(), contacts.end(),
                      [](const auto& contact) { return contact.has_value(); });
@@ -129,19 +193,40 @@ std::optional<SkinDepths> believable_radii(const HandPose& hand) noexcept {
   return depths;
 }
 
+Status check_options(const SettleOptions& options) {
+  return first_error({{"softness_m", options.softness_m, 0.0, kSoftest_m},
+                      {"softness_depth_m", options.softness_depth_m, kLeast, kInfinity},
+                      {"friction.coefficient", options.friction.coefficient, 0.0, 2.0},
+                      {"friction.kinetic", options.friction.kinetic, 0.0, 1.0},
+                      {"friction.longest_lag_m", options.friction.longest_lag_m, 0.0, kInfinity}});
+}
+
+Status check_options(const CorrectorOptions& options) {
+  constexpr double kAny = std::numeric_limits<double>::max();
+  Status status = first_error(
+      {{"skin_hand_length_m", options.skin_hand_length_m, kLeast, kAny},
+       {"hand_length_m", options.hand_length_m, 0.0, kLargestHand_m},
+       {"release_s", options.release_s, 0.0, 1.0},
+       {"contact.full_turn_depth_m", options.contact.full_turn_depth_m, 0.0, 0.2},
+       {"contact.push_through_limit_m", options.contact.push_through_limit_m, 0.0, kInfinity},
+       {"fingers.max_ray_turn_rad", options.fingers.max_ray_turn_rad, 0.0,
+        0.5 * std::numbers::pi}});
+  for (std::size_t i = 0; status.ok() && i < kPartCount; ++i) {
+    status = first_error({{"skin.depth_m", options.skin.depth_m[i], -kAny, kAny}});
+  }
+  for (const Handedness side : {Handedness::left, Handedness::right}) {
+    const auto& flesh = options.flesh[index_of(side)];
+    if (!status.ok() || !flesh) continue;
+    if (flesh->side != side) return bad_option("flesh", "a hand's on its own side");
+    status = first_error({{"flesh: hand_length_m", flesh->hand_length_m, kLeast, kAny}});
+  }
+  return status.ok() ? check_options(options.settle) : status;
+}
+
 HandCorrector::HandCorrector(const CorrectorOptions& options) : options_(options) {
-  NADE_ASSERT(options.skin_hand_length_m > 0.0);
-  NADE_ASSERT(options.hand_length_m >= 0.0 && options.hand_length_m < kLargestHand_m);
-  NADE_ASSERT(options.release_s >= 0.0 && options.release_s <= 1.0);
-  NADE_ASSERT(options.contact.full_turn_depth_m >= 0.0 && options.contact.full_turn_depth_m <= 0.2);
-  NADE_ASSERT(options.contact.push_through_limit_m >= 0.0);
-  NADE_ASSERT(options.fingers.max_ray_turn_rad >= 0.0 &&
-              options.fingers.max_ray_turn_rad <= 0.5 * std::numbers::pi);
-  for (const double depth_m : options.skin.depth_m) NADE_ASSERT(std::isfinite(depth_m));
-  set_settle(options.settle);
+  NADE_ASSERT(check_options(options).ok());
   if (options.method != Method::nade) return;
   for (const Handedness side : {Handedness::left, Handedness::right}) {
-    NADE_ASSERT(flesh_of(side).side == side && flesh_of(side).hand_length_m > 0.0);
     proxies_[index_of(side)] = std::make_unique<ProxyHand>(
         flesh_of(side), options.tuning ? *options.tuning : ProxyTuning{});
   }
@@ -151,17 +236,15 @@ HandCorrector& HandCorrector::operator=(HandCorrector&&) noexcept = default;
 HandCorrector::~HandCorrector() = default;
 
 void HandCorrector::set_settle(const SettleOptions& settle) noexcept {
-  NADE_ASSERT(settle.softness_m >= 0.0 && settle.softness_m <= kSoftest_m);
-  NADE_ASSERT(settle.softness_depth_m > 0.0);
-  NADE_ASSERT(settle.friction.coefficient >= 0.0 && settle.friction.coefficient <= 2.0);
-  NADE_ASSERT(settle.friction.kinetic >= 0.0 && settle.friction.kinetic <= 1.0);
-  NADE_ASSERT(settle.friction.longest_lag_m >= 0.0);
+  NADE_ASSERT(check_options(settle).ok());
+  answered_.reset();
   options_.settle = settle;
 }
 
 void HandCorrector::reset() noexcept {
   contact_memory_ = {};
   forget_proxies();
+  answered_.reset();
   last_.reset();
   release_start_ns_.reset();
   hand_length_m_ = 0.0;
@@ -170,6 +253,10 @@ void HandCorrector::reset() noexcept {
 
 const CorrectedHand& HandCorrector::update(const HandPose& tracked, const Object& object,
                                            std::int64_t time_ns) noexcept {
+  const Question question{tracked, object.identity(), object.placement(), object.surface().shape(),
+                          time_ns};
+  if (answered_ == question) return result_;
+  answered_ = question;
   std::optional<HandFault> fault = fault_of(tracked);
   if (!fault) {
     correct(tracked, object, time_ns);
@@ -183,6 +270,15 @@ const CorrectedHand& HandCorrector::update(const HandPose& tracked, const Object
     result_ = {tracked, HandStatus::untracked, fault, {}, {}};
   }
   return result_;
+}
+
+HandPose HandCorrector::preview(const HandPose& tracked) const noexcept {
+  const bool corrected =
+      result_.status == HandStatus::corrected || result_.status == HandStatus::released;
+  if (!answered_ || !corrected || tracked.side != result_.pose.side) return tracked;
+  const HandPose newer = with_unit_rotations(tracked);
+  if (fault_of(newer)) return tracked;
+  return carried_over(with_unit_rotations(answered_->tracked), result_.pose, newer);
 }
 
 void HandCorrector::correct(const HandPose& tracked, const Object& object,

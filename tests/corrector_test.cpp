@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <random>
@@ -321,6 +322,86 @@ TEST_P(CorrectorOfAnyMethod, TimeThatGoesBackByTwoFramesDoesNotMoveTheHand) {
     EXPECT_LT(largest_motion(result.pose, drawn), 0.001) << i;
     drawn = result.pose;
   }
+}
+
+/// As where a program draws two eyes, or a paused one draws again.
+TEST_P(CorrectorOfAnyMethod, AskedTwiceItGivesTheSameAnswerAndChangesNothing) {
+  HandCorrector once(options_);
+  HandCorrector twice(options_);
+  for (int i = 0; i < 60; ++i) {
+    const HandPose hand = test::on_the_way_down(i, 20, 0.03, 0.1);
+    const HandPose expected = once.update(hand, ball(), i * kFrame_ns).pose;
+    EXPECT_TRUE(same_bits(twice.update(hand, ball(), i * kFrame_ns).pose, expected)) << i;
+    EXPECT_TRUE(same_bits(twice.update(hand, ball(), i * kFrame_ns).pose, expected)) << i;
+  }
+}
+
+TEST_P(CorrectorOfAnyMethod, APreviewCarriesTheLatestCorrectionOver) {
+  HandCorrector corrector(options_);
+  const HandPose above = pressed_hand(-0.2);
+  EXPECT_TRUE(same_bits(corrector.preview(above), above));
+  HandPose drawn;
+  for (int i = 0; i < 40; ++i) {
+    drawn = corrector.update(test::on_the_way_down(i, 20, 0.03, 0.1), plane(), i * kFrame_ns).pose;
+  }
+  const HandPose last = test::on_the_way_down(39, 20, 0.03, 0.1);
+  EXPECT_LT(largest_motion(corrector.preview(last), drawn), 1e-12);
+  const Vec3 along(0.004, 0.0, 0.001);
+  HandPose newer = last;
+  for (Pose& joint : newer.joints) joint.position += along;
+  HandPose moved = drawn;
+  for (Pose& joint : moved.joints) joint.position += along;
+  EXPECT_LT(largest_motion(corrector.preview(newer), moved), 1e-12);
+  EXPECT_TRUE(same_bits(corrector.update(last, plane(), 39 * kFrame_ns).pose, drawn));
+  HandPose other = newer;
+  other.side = Handedness::left;
+  EXPECT_TRUE(same_bits(corrector.preview(other), other));
+  HandPose broken = newer;
+  broken[Joint::ring_tip].position.x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(std::isnan(corrector.preview(broken)[Joint::ring_tip].position.x()));
+}
+
+/// A finger that goes on bending does so in the preview.
+TEST_P(CorrectorOfAnyMethod, APreviewBendsAsTheHandBends) {
+  HandCorrector corrector(options_);
+  HandPose drawn;
+  for (int i = 0; i < 40; ++i) {
+    drawn = corrector.update(test::on_the_way_down(i, 20, 0.02), plane(), i * kFrame_ns).pose;
+  }
+  HandPose newer = test::on_the_way_down(39, 20, 0.02);
+  const Pose base = newer[Joint::index_proximal];
+  const Quat turn(Eigen::AngleAxisd(0.1, base.rotation * Vec3::UnitX()));
+  for (std::size_t i = index_of(Joint::index_proximal); i <= index_of(Joint::index_tip); ++i) {
+    Pose& joint = newer.joints[i];
+    joint.position = base.position + turn * (joint.position - base.position);
+    joint.rotation = turn * joint.rotation;
+  }
+  const HandPose preview = corrector.preview(newer);
+  const HandAngles before = measure_angles(drawn);
+  const HandAngles after = measure_angles(preview);
+  EXPECT_NEAR(after[1][0].flexion - before[1][0].flexion, -0.1, 0.01);
+  EXPECT_NEAR(after[2][0].flexion, before[2][0].flexion, 1e-9);
+  EXPECT_LT((preview[Joint::middle_tip].position - drawn[Joint::middle_tip].position).norm(),
+            1e-12);
+}
+
+TEST(Corrector, OptionsAreCheckedByAFunction) {
+  EXPECT_TRUE(check_options(CorrectorOptions()).ok());
+  EXPECT_TRUE(check_options(paper_literal()).ok());
+  CorrectorOptions options;
+  options.hand_length_m = 80.0;
+  EXPECT_EQ(check_options(options).error().message,
+            "hand_length_m: expected 0.000000 to 0.500000, found 80.000000");
+  options = {};
+  options.settle.softness_m = std::nan("");
+  EXPECT_FALSE(check_options(options).ok());
+  options = {};
+  options.settle.softness_depth_m = 0.0;
+  EXPECT_EQ(check_options(options).error().message,
+            "softness_depth_m: expected above 0, found 0.000000");
+  options = {};
+  options.flesh[0] = std::make_shared<HandFlesh>(generic_flesh(Handedness::right));
+  EXPECT_EQ(check_options(options).error().message, "flesh: expected a hand's on its own side");
 }
 
 TEST_P(CorrectorOfAnyMethod, DegenerateHandsGiveFinitePoses) {

@@ -11,6 +11,7 @@
 #include "nade/fingers.h"
 #include "nade/flesh.h"
 #include "nade/settle_options.h"
+#include "nade/status.h"
 
 namespace nade {
 
@@ -59,6 +60,11 @@ struct CorrectorOptions {
   std::shared_ptr<const ProxyTuning> tuning;
 };
 
+/// Whether options are what each of them may be; the error names the first that is not. A corrector
+/// takes no others.
+[[nodiscard]] Status check_options(const CorrectorOptions& options);
+[[nodiscard]] Status check_options(const SettleOptions& options);
+
 /// All open points as the paper's bare text has them, for comparison.
 [[nodiscard]] CorrectorOptions paper_literal();
 
@@ -79,6 +85,7 @@ struct CorrectedHand {
 /// that was moved from can only be assigned to.
 class HandCorrector {
  public:
+  /// `options` as `check_options` takes them.
   explicit HandCorrector(const CorrectorOptions& options = {});
   HandCorrector(HandCorrector&&) noexcept;
   HandCorrector& operator=(HandCorrector&&) noexcept;
@@ -96,10 +103,17 @@ class HandCorrector {
   /// which it is missing are simply not passed: one that presses on when it is back, within a
   /// second, goes on from where it was drawn. Time that goes back, or the other hand, starts anew;
   /// but back by 25 ms at the most, as where a clock is read late or a frame's display time
-  /// foretold anew, counts as the same time. Once a frame: a second call for the same time counts
-  /// as a frame of a millisecond. Times may be whole milliseconds, and off by a few.
+  /// foretold anew, counts as the same time. Asked again for the same time, hand and object, it
+  /// gives the same answer and changes nothing; another hand at the same time counts as a frame of
+  /// a millisecond later. Times may be whole milliseconds, and off by a few.
   const CorrectedHand& update(const HandPose& tracked, const Object& object,
                               std::int64_t time_ns) noexcept;
+
+  /// The latest correction on a newer pose of the same hand, as for a picture's late update: each
+  /// joint is shifted and turned against the one before it as in the last frame. Remembers nothing;
+  /// the last frame's own pose gives the hand that was drawn. `tracked` as it is where nothing was
+  /// corrected, or where it cannot be used.
+  [[nodiscard]] HandPose preview(const HandPose& tracked) const noexcept;
 
   /// Friction and softness from the next frame on, as where a hand goes over to another object. One
   /// that rests goes on from where it is drawn.
@@ -115,6 +129,15 @@ class HandCorrector {
     HandPose tracked;
     Correction correction;  ///< of the paper's method, before any release
     std::int64_t time_ns = 0;
+  };
+
+  struct Question {
+    HandPose tracked;
+    ObjectIdentity object;
+    Placement placement;
+    std::uint64_t shape = 0;
+    std::int64_t time_ns = 0;
+    bool operator==(const Question&) const = default;
   };
 
   void correct(const HandPose& tracked, const Object& object, std::int64_t time_ns) noexcept;
@@ -134,6 +157,7 @@ class HandCorrector {
   ObjectIdentity met_;                                 ///< that it is of
   std::array<std::unique_ptr<ProxyHand>, 2> proxies_;  ///< method nade; by index_of(Handedness)
   CorrectedHand result_;
+  std::optional<Question> answered_;  ///< that `result_` is the answer to
   std::optional<Frame> last_;
   double hand_length_m_ = 0.0;      ///< mean over the last few seconds: bones do not grow
   std::int64_t frames_ = 0;         ///< that it is of

@@ -120,6 +120,8 @@ struct HandPose {
   /// The tracker's own, 0 to 1. For who records and shows it: a hand is corrected alike at any.
   double confidence = 1.0;
 
+  bool operator==(const HandPose&) const = default;
+
   [[nodiscard]] const Pose& operator[](Joint joint) const { return joints[index_of(joint)]; }
   [[nodiscard]] Pose& operator[](Joint joint) { return joints[index_of(joint)]; }
 
