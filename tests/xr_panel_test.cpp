@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include "joints.h"
 #include "panel_touch.h"
 #include "support/sample_hand.h"
 
@@ -136,33 +135,6 @@ TEST(PanelTouch, PinchFromAfarPressesWhatIsPointedAt) {
   EXPECT_FALSE(touch.update(hand_with(0.01), head, panel, picture, true).pressed);
   EXPECT_FALSE(touch.update(hand_with(0.02), head, panel, picture, true).pressed);
   EXPECT_FALSE(touch.update(hand_with(0.01), head, panel, picture, true).pressed);
-}
-
-TEST(Joints, HandTakesOverPlacesTurnsAndRadii) {
-  const HandPose sample = test::sample_hand();
-  JointLocations joints{};
-  for (std::size_t i = 0; i < kJointCount; ++i) {
-    joints[i].locationFlags = 0xF;
-    const Vec3& p = sample.joints[i].position;
-    const Quat& q = sample.joints[i].rotation;
-    joints[i].pose.position = {static_cast<float>(p.x()), static_cast<float>(p.y()),
-                               static_cast<float>(p.z())};
-    joints[i].pose.orientation = {static_cast<float>(q.x()), static_cast<float>(q.y()),
-                                  static_cast<float>(q.z()), static_cast<float>(q.w())};
-    joints[i].radius = 0.009F;
-  }
-  const auto hand = hand_from(Handedness::right, joints);
-  ASSERT_TRUE(hand);
-  EXPECT_EQ(hand->confidence, 1.0);
-  for (std::size_t i = 0; i < kJointCount; ++i) {
-    EXPECT_LT((hand->joints[i].position - sample.joints[i].position).norm(), 1e-6);
-    EXPECT_LT(hand->joints[i].rotation.angularDistance(sample.joints[i].rotation), 1e-3);
-    EXPECT_NEAR(hand->radius[i], 0.009, 1e-7);
-  }
-  joints[7].locationFlags = 0x3;  // inferred
-  EXPECT_EQ(hand_from(Handedness::right, joints)->confidence, 0.5);
-  joints[7].locationFlags = 0x1;
-  EXPECT_FALSE(hand_from(Handedness::right, joints));
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <utility>
 
+#include "nade/openxr.h"
+
 // Based on: The Khronos Group. The OpenXR Specification, version 1.0. Chapters 7, 9, 10, and
 // XR_EXT_hand_tracking.
 
@@ -19,6 +21,10 @@ constexpr std::int64_t kColorFormat = GL_SRGB8_ALPHA8;
 Error refused(const char* what, XrResult result) {
   return {ErrorCode::not_found,
           fmt::format("the OpenXR runtime refused {}: {}", what, name_of(result))};
+}
+
+draw::FieldOfView view_from(const XrFovf& view) {
+  return {view.angleLeft, view.angleRight, view.angleUp, view.angleDown};
 }
 
 }  // namespace
@@ -278,7 +284,7 @@ void HeadsetSession::locate(XrTime time) {
                        "xrLocateViews") &&
                  (state.viewStateFlags & kValid) == kValid;
   for (std::size_t eye = 0; eye < 2 && views_valid_; ++eye) {
-    frame_.eyes[eye].pose = pose_from(views_[eye].pose);
+    frame_.eyes[eye].pose = openxr::pose_from(views_[eye].pose);
     frame_.eyes[eye].view = view_from(views_[eye].fov);
   }
   frame_.draw = frame_state_.shouldRender == XR_TRUE && views_valid_;
@@ -290,7 +296,7 @@ void HeadsetSession::locate(XrTime time) {
   frame_.head.reset();
   if (check(api.xrLocateSpace(head_.get(), base_.get(), time, &head), "xrLocateSpace") &&
       (head.locationFlags & kPose) == kPose) {
-    frame_.head = pose_from(head.pose);
+    frame_.head = openxr::pose_from(head.pose);
   }
   for (std::size_t side = 0; side < 2; ++side) locate_hand(side, time);
 }
@@ -310,8 +316,8 @@ void HeadsetSession::locate_hand(std::size_t side, XrTime time) {
       located.isActive == XR_FALSE) {
     return;
   }
-  frame_.hands[side] =
-      hand_from(side == index_of(Handedness::left) ? Handedness::left : Handedness::right, joints_);
+  const bool left = side == index_of(Handedness::left);
+  frame_.hands[side] = openxr::hand_from(left ? Handedness::left : Handedness::right, joints_);
   if (source.isActive == XR_TRUE &&
       source.dataSource == XR_HAND_TRACKING_DATA_SOURCE_CONTROLLER_EXT) {
     frame_.own_hands = false;

@@ -9,7 +9,6 @@
 
 #include "graphics_binding.h"
 #include "headset.h"
-#include "joints.h"
 #include "nade/draw/renderer.h"
 #include "tracked_frame.h"
 
@@ -119,7 +118,7 @@ class HeadsetSession {
   std::array<XrView, 2> views_{};
   bool views_valid_ = false;
   std::array<bool, 2> drawn_{};
-  JointLocations joints_{};
+  std::array<XrHandJointLocationEXT, XR_HAND_JOINT_COUNT_EXT> joints_{};
   TrackedFrame frame_;
 };
 
