@@ -54,9 +54,10 @@ Status check_recording_name(const std::string& option, const std::string& name) 
   if (name == kStandardStream || fs::is_other(name, ignored)) return ok_status();
   std::string ending = ending_of(name);
   if (ending == ".gz") ending = ending_of(fs::path(name).stem().string());
-  if (ending.empty() || ending == ".jsonl") return ok_status();
-  return misuse(
-      fmt::format("{}: expected a name ending in .jsonl or .jsonl.gz, found '{}'", option, name));
+  if (ending.empty() || ending == ".jsonl" || ending == ".csv") return ok_status();
+  return misuse(fmt::format(
+      "{}: expected a name ending in .jsonl or .csv, or in .gz after one of them, found '{}'",
+      option, name));
 }
 
 bool lies_in(const std::string& path, const std::string& folder) {

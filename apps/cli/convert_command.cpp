@@ -58,8 +58,8 @@ Status run_convert(const ConvertArguments& arguments) {
 }  // namespace
 
 void add_convert(CLI::App& app, Action& action) {
-  CLI::App* const command =
-      app.add_subcommand("convert", "Turns a recording of any known format into ours");
+  CLI::App* const command = app.add_subcommand(
+      "convert", "Turns a recording of any known format into ours, or into a table (.csv)");
   const auto arguments = std::make_shared<ConvertArguments>();
   command->add_option("input", arguments->input, "the recording to read; - is stdin")
       ->type_name("IN")

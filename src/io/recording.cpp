@@ -6,6 +6,8 @@
 #include <variant>
 
 #include "byte_source.h"
+#include "csv_import.h"
+#include "csv_write.h"
 #include "json_text.h"
 #include "leap_import.h"
 #include "nade/io/output_file.h"
@@ -16,17 +18,21 @@ namespace nade {
 namespace {
 
 using io::ByteSource;
+using io::CsvImport;
 using io::LeapImport;
 using io::RecordingLines;
 using io::Sketch;
 using io::WebxrImport;
 
-using AnySource = std::variant<RecordingLines, LeapImport, WebxrImport>;  // as RecordingFormat
+// As RecordingFormat.
+using AnySource = std::variant<RecordingLines, LeapImport, WebxrImport, CsvImport>;
 
 /// Enough to see what a file is.
 constexpr std::size_t kLookAhead = std::size_t{1} << 16;
 constexpr std::string_view kKnownForms =
-    "a nade recording, raw Leap Motion v2 frames (LeapJS JSON) or a WebXR action recording";
+    "a nade recording, raw Leap Motion v2 frames (LeapJS JSON), a WebXR action recording or a "
+    "table "
+    "of joints (CSV)";
 
 template <class Source>
 Result<AnySource> opened(ByteSource source) {
@@ -43,6 +49,7 @@ Error unknown_form(const std::string& name, const std::string& found) {
 Result<AnySource> recognised(ByteSource source) {
   const std::string_view beginning = source.peek(kLookAhead);
   if (source.failure()) return *source.failure();
+  if (io::looks_like_joint_table(beginning)) return opened<CsvImport>(std::move(source));
   const Sketch sketch = io::sketch_of(beginning);
   if (sketch.begins.empty()) return unknown_form(source.name(), "nothing");
   if (sketch.find("format") != nullptr) return opened<RecordingLines>(std::move(source));
@@ -125,8 +132,15 @@ struct RecordingWriter::Impl {
   std::string name;
   OutputFile file;
   fmt::memory_buffer buffer;
+  bool is_table = false;
   std::optional<std::int64_t> last_time_ns;
 
+  Status append_frame(const RecordedFrame& frame) {
+    const Status checked = io::check_frame(frame);
+    if (!checked) return checked;
+    is_table ? io::append_csv_frame(frame, buffer) : io::append_frame(frame, buffer);
+    return ok_status();
+  }
   Status write_buffer() {
     Status status = file.write({buffer.data(), buffer.size()});
     buffer.clear();
@@ -146,8 +160,8 @@ Result<RecordingWriter> RecordingWriter::create(const std::string& path,
   if (!file) return file.error();
   auto impl =
       std::make_unique<Impl>(Impl{path == "-" ? "standard output" : path, std::move(file).value(),
-                                  fmt::memory_buffer(), std::nullopt});
-  io::append_header(header, impl->buffer);
+                                  fmt::memory_buffer(), io::names_a_table(path), std::nullopt});
+  impl->is_table ? io::append_csv_names(impl->buffer) : io::append_header(header, impl->buffer);
   const Status status = impl->write_buffer();
   if (!status) return status.error();
   return RecordingWriter(std::move(impl));
@@ -160,7 +174,7 @@ Status RecordingWriter::write(const RecordedFrame& frame) {
                  fmt::format("{}: frame at {} ns: expected a time after {} ns", impl_->name,
                              frame.time_ns, *impl_->last_time_ns)};
   }
-  const Status appended = io::append_frame(frame, impl_->buffer);
+  const Status appended = impl_->append_frame(frame);
   if (!appended) {
     impl_->buffer.clear();
     return Error{appended.error().code,

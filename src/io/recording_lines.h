@@ -45,9 +45,11 @@ class RecordingLines {
   std::optional<std::int64_t> last_time_ns_;
 };
 
-/// Appends a line of our format, with its end. The error is what cannot be written, to be
-/// prefixed with the file's name.
+/// What of a frame cannot be written, to be prefixed with the file's name.
+[[nodiscard]] Status check_frame(const RecordedFrame& frame);
+
+/// Appends a line of our format, with its end.
 void append_header(const RecordingHeader& header, fmt::memory_buffer& out);
-[[nodiscard]] Status append_frame(const RecordedFrame& frame, fmt::memory_buffer& out);
+void append_frame(const RecordedFrame& frame, fmt::memory_buffer& out);
 
 }  // namespace nade::io

@@ -180,36 +180,37 @@ void append_header(const RecordingHeader& header, Buffer& out) {
   append(out, "}\n");
 }
 
-Status append_frame(const RecordedFrame& frame, Buffer& out) {
+Status check_frame(const RecordedFrame& frame) {
+  const auto wrong = [&](const std::string& sentence) {
+    return Error{ErrorCode::bad_value, fmt::format("frame at {} ns: {}", frame.time_ns, sentence)};
+  };
   if (frame.time_ns < -kLatest_ns || frame.time_ns > kLatest_ns) {
-    return Error{ErrorCode::bad_value, fmt::format("frame at {} ns: expected a time up to {} ns "
-                                                   "from 0 to write",
-                                                   frame.time_ns, kLatest_ns)};
+    return wrong(fmt::format("expected a time up to {} ns from 0 to write", kLatest_ns));
   }
+  for (const Handedness side : {Handedness::left, Handedness::right}) {
+    const std::optional<RecordedHand>& hand = frame.hands[index_of(side)];
+    const Status status = hand ? check_hand(*hand) : ok_status();
+    if (!status) return wrong(fmt::format("{}: {}", name_of(side), status.error().message));
+  }
+  if (!frame.head || is_finite(*frame.head)) return ok_status();
+  return wrong("head: expected finite numbers to write");
+}
+
+void append_frame(const RecordedFrame& frame, Buffer& out) {
   fmt::format_to(fmt::appender(out), "{{\"t\":{}", frame.time_ns);
   for (const Handedness side : {Handedness::left, Handedness::right}) {
     const std::optional<RecordedHand>& hand = frame.hands[index_of(side)];
     if (!hand) continue;
-    if (const Status status = check_hand(*hand); !status) {
-      return Error{status.error().code, fmt::format("frame at {} ns: {}: {}", frame.time_ns,
-                                                    name_of(side), status.error().message)};
-    }
     fmt::format_to(fmt::appender(out), ",\"{}\":", name_of(side));
     append_hand(out, *hand);
   }
   if (frame.head) {
-    if (!is_finite(*frame.head)) {
-      return Error{
-          ErrorCode::bad_value,
-          fmt::format("frame at {} ns: head: expected finite numbers to write", frame.time_ns)};
-    }
     append(out, ",\"head\":[");
     append_numbers(out, *frame.head);
     append(out, "]");
   }
   append_unknown(out, parsed_unknown(frame.unknown_json), {"t", "left", "right", "head"});
   append(out, "}\n");
-  return ok_status();
 }
 
 }  // namespace nade::io

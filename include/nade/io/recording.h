@@ -47,7 +47,7 @@ struct RecordingHeader {
 };
 
 /// What a file is, told from its content.
-enum class RecordingFormat : std::uint8_t { nade, leap_v2, webxr_actions };
+enum class RecordingFormat : std::uint8_t { nade, leap_v2, webxr_actions, joint_table };
 
 /// Reads a recording of any known format, plain or gzip, a frame at a time, in memory that does
 /// not grow with its length.
@@ -77,9 +77,10 @@ class RecordingReader {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Writes our format: gzip where the path ends in ".gz", standard output for "-". The file
-/// appears under its name, whole, in `finish`, and not at all if that is never reached; or, where
-/// asked for, at once.
+/// Writes our format, or, where the path ends in ".csv" or ".csv.gz", a table with a row for each
+/// hand of a frame (docs/formats.md): gzip where it ends in ".gz", standard output for "-". The
+/// file appears under its name, whole, in `finish`, and not at all if that is never reached; or,
+/// where asked for, at once.
 class RecordingWriter {
  public:
   [[nodiscard]] static Result<RecordingWriter> create(const std::string& path,
