@@ -17,6 +17,7 @@
 #include "console.h"
 #include "nade/io/output_file.h"
 #include "nade/io/recording.h"
+#include "nade/version.h"
 
 namespace nade::cli {
 namespace {

@@ -18,6 +18,7 @@
 #include "nade/eval/quantile.h"
 #include "nade/io/output_file.h"
 #include "nade/io/recording.h"
+#include "nade/version.h"
 #include "object_options.h"
 #include "press_option.h"
 #include "spooled_input.h"

@@ -7,6 +7,7 @@
 
 #include "commands.h"
 #include "console.h"
+#include "nade/version.h"
 
 namespace {
 

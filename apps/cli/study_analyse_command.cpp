@@ -17,6 +17,7 @@
 #include "nade/study/participant.h"
 #include "nade/study/report.h"
 #include "nade/study/study_data.h"
+#include "nade/version.h"
 #include "number_options.h"
 
 namespace nade::cli {

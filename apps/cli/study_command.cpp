@@ -17,6 +17,7 @@
 #include "nade/study/export.h"
 #include "nade/study/plan.h"
 #include "nade/study/simulate.h"
+#include "nade/version.h"
 #include "number_options.h"
 #include "study_run.h"
 

@@ -15,6 +15,7 @@
 #ifdef NADE_CLI_VIEWER
 #include "method_options.h"
 #include "nade/eval/synth.h"
+#include "nade/version.h"
 #include "picture_options.h"
 #include "script_player.h"
 #include "window_options.h"

@@ -10,6 +10,7 @@
 
 #include "nade/io/object_file.h"
 #include "nade/io/output_file.h"
+#include "nade/version.h"
 
 namespace nade::xr {
 namespace {
