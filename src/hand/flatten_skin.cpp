@@ -28,6 +28,7 @@ constexpr double kShareReach_m = 0.016;
 /// Ways out begin to count from this height of a piece's inner point on, and fade so far before
 /// they are out of reach.
 constexpr double kSure_m = 0.002;
+constexpr double kFarther_m = 0.008;
 /// Of the pieces about a vertex so much has to agree on a way out: less where some are inside.
 constexpr double kLeastAgreed = 0.02;
 constexpr double kAgreed = 0.2;
@@ -95,6 +96,14 @@ Vec3 turned(const Vec3& normal, const Vec3& up, const Vec3& out, double kept) no
   const Vec3 sum = kept * normal + (1.0 - kept) * across;
   const double length = sum.norm();
   return length > 1e-6 ? Vec3(sum / length) : normal;
+}
+
+/// Where a point of the flesh is out of the surface, the unit direction from there to it; less of
+/// it the nearer it is, none inside.
+Vec3 way_out_of(const SurfacePoint& near, const Vec3& point) noexcept {
+  const double height_m = near.signed_distance;
+  if (!(height_m > 0.0)) return Vec3::Zero();
+  return smoothstep(0.0, kSure_m, height_m) / height_m * (point - near.point);
 }
 
 }  // namespace
@@ -173,12 +182,18 @@ void SkinFlattener::find_ways_out(const Object& object, const HandPose& hand, do
         bone.apply(scale * piece.skin_local) + depth_m * (bone.rotation * piece.inward_local);
     const double reach_m = depth_m + scale * piece.radius_m + kSlack_m + kBorder_m;
     const auto near = object.closest_point(piece.inner, reach_m, piece.hint);
-    piece.out = Vec3::Zero();
     piece.height_m = near ? std::abs(near->signed_distance) : reach_m;
-    if (!near || !(near->signed_distance > 0.0)) continue;
-    const double sure = smoothstep(0.0, kSure_m, piece.height_m) *
-                        smoothstep(reach_m, reach_m - kSure_m, piece.height_m);
-    piece.out = sure / piece.height_m * (piece.inner - near->point);
+    piece.out = Vec3::Zero();
+    if (!near) continue;
+    const double in_reach = smoothstep(reach_m, reach_m - kSure_m, near->signed_distance);
+    piece.out = in_reach * way_out_of(*near, piece.inner);
+    const double unsure = 1.0 - smoothstep(0.0, kSure_m, near->signed_distance);
+    if (unsure == 0.0) continue;
+    // Flesh that lies aslant of the surface: a way out is farther in.
+    const Vec3 farther = piece.inner + kFarther_m * (bone.rotation * piece.inward_local);
+    if (const auto other = object.closest_point(farther, reach_m, piece.hint)) {
+      piece.out += unsure * way_out_of(*other, farther);
+    }
   }
 }
 
