@@ -27,11 +27,11 @@ constexpr double kWidestPiece_m = 0.01;
 constexpr double kShareReach_m = 0.016;
 /// Ways out begin to count from this height of a piece's inner point on, and fade so far before
 /// they are out of reach.
-constexpr double kSure_m = 0.002;
+constexpr double kSure_m = 0.006;
 constexpr double kFarther_m = 0.008;
 /// Of the pieces about a vertex so much has to agree on a way out: less where some are inside.
 constexpr double kLeastAgreed = 0.02;
-constexpr double kAgreed = 0.2;
+constexpr double kAgreed = 0.15;
 /// Vertices are carried by other bones, too: so much farther from a piece than in the bind pose.
 constexpr double kSlack_m = 0.006;
 
