@@ -89,11 +89,12 @@ Height drawn_height(double gap_m) noexcept {
 }
 
 /// The normal of skin whose height over a surface with the normal `up`, along `out`, has shrunk to
-/// the share `kept`: skin that has none left is parallel to it.
+/// the share `kept`: skin that has none left faces the surface, whichever way it faced.
 Vec3 turned(const Vec3& normal, const Vec3& up, const Vec3& out, double kept) noexcept {
   constexpr double kGrazing = 0.05;
-  const Vec3 across = out.dot(normal) / std::max(kGrazing, out.dot(up)) * up;
-  const Vec3 sum = kept * normal + (1.0 - kept) * across;
+  constexpr double kFacing = -0.1;
+  const double facing = std::min(kFacing, out.dot(normal)) / std::max(kGrazing, out.dot(up));
+  const Vec3 sum = kept * normal + (1.0 - kept) * facing * up;
   const double length = sum.norm();
   return length > 1e-6 ? Vec3(sum / length) : normal;
 }
