@@ -16,7 +16,7 @@ namespace {
 using Vec3f = Eigen::Vector3f;
 
 /// Flattened skin lies so far above the surface: neither flickers.
-constexpr double kClear_m = 0.0002;
+constexpr double kFlatHeight_m = 0.0002;
 /// Skin nearer than this is drawn away from the surface a little, so that there is no crease.
 constexpr double kBorder_m = 0.002;
 /// Skin that is sunk so much deeper than its flesh gives way is moved less, and not at all.
@@ -75,17 +75,17 @@ std::vector<std::vector<std::uint32_t>> split_skin(const HandMesh& mesh,
 }
 
 /// How high skin is drawn that is so high, and how fast that grows: as it is from `kBorder_m` on,
-/// `kClear_m` where it is sunk, and a parabola between.
+/// `kFlatHeight_m` where it is sunk, and a parabola between.
 struct Height {
   double value;
   double slope;
 };
 Height drawn_height(double gap_m) noexcept {
-  const double half = 2.0 * (kBorder_m - kClear_m);
+  const double half = 2.0 * (kBorder_m - kFlatHeight_m);
   const double in = gap_m - (kBorder_m - half);
-  if (in <= 0.0) return {kClear_m, 0.0};
+  if (in <= 0.0) return {kFlatHeight_m, 0.0};
   if (in >= half) return {gap_m, 1.0};
-  return {kClear_m + in * in / (2.0 * half), in / half};
+  return {kFlatHeight_m + in * in / (2.0 * half), in / half};
 }
 
 /// The normal of skin whose height over a surface with the normal `up`, along `out`, has shrunk to
