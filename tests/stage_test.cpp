@@ -155,6 +155,29 @@ INSTANTIATE_TEST_SUITE_P(Objects, StagePress,
                                          Press{"sphere", {0.0, -0.01, 0.0}, {-0.3, 0.2, -0.2}},
                                          Press{"dog", {0.05, 0.40, 0.0}, {-0.2, 0.3, 0.4}}));
 
+/// Where flesh gives way the hand of the new method is flat; the others are drawn as they are.
+TEST_F(StageTest, SunkSkinIsDrawnFlat) {
+  const HandMesh& skin = mesh(Handedness::right);
+  for (const char* const spec : {"plane", "sphere"}) {
+    show(spec);
+    const double skin_m = generic_skin_depths()[Part::palm];
+    HandCorrector corrector;
+    HandPose drawn;
+    for (int i = 0; i < 90; ++i) {
+      const double depth = 0.07 * std::min(1.0, i / 60.0) - 0.05;
+      const HandPose tracked = flat_hand(skin, 1.0, skin_m - depth);
+      drawn = corrector.update(tracked, object(), i * 11'111'111).pose;
+    }
+    ASSERT_GT(deepest_skin(skin, drawn, object()), 0.004);
+    const Vec3 palm = drawn[Joint::palm].position;
+    const Camera camera = looking_at(palm + Vec3(-0.35, 0.02, 0.05), palm, 0.6, kAspect);
+    EXPECT_GT(penetrating_pixels(drawn, camera, Method::none), 50U) << spec;
+    EXPECT_EQ(penetrating_pixels(drawn, camera, Method::paper),
+              penetrating_pixels(drawn, camera, Method::none));
+    EXPECT_EQ(penetrating_pixels(drawn, camera, Method::nade), 0U) << spec;
+  }
+}
+
 struct Stroked {
   const char* object;
   Vec3 eye_offset;  ///< from the palm

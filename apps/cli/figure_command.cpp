@@ -79,7 +79,8 @@ Status play(const Frames& next, std::int64_t time_ns, const std::array<double, 2
         if (!(*frame)->hands[side]) continue;
         const HandPose& tracked = (*frame)->hands[side]->pose;
         const CorrectedHand& hand = correctors[m][side].update(tracked, object, (*frame)->time_ns);
-        staged = draw::StagedHand{tracked, hand.pose, hand.contacts, scale[side]};
+        staged =
+            draw::StagedHand{tracked, hand.pose, hand.contacts, scale[side], methods[m].method};
       }
     }
   }

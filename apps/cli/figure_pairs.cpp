@@ -46,6 +46,7 @@ struct PlayedCase {
   SuiteObject object;
   CaseRecording tracked;
   std::array<CorrectedRecording, 2> corrected;
+  std::array<Method, 2> drawn{};  ///< which skin it has
 };
 
 Result<PlayedCase> play(const PairsPlan& plan, const SuiteCase& suite_case,
@@ -54,9 +55,10 @@ Result<PlayedCase> play(const PairsPlan& plan, const SuiteCase& suite_case,
   if (!object) return object.error();
   Result<CaseRecording> tracked = make_recording(suite_case, *object);
   if (!tracked) return tracked.error();
-  PlayedCase played{std::move(object).value(), std::move(tracked).value(), {}};
+  PlayedCase played{std::move(object).value(), std::move(tracked).value(), {}, {}};
   for (std::size_t m = 0; m < plan.methods.size(); ++m) {
     played.corrected[m] = correct(played.tracked, played.object, hands, plan.methods[m]);
+    played.drawn[m] = method_from_name(plan.methods[m].name).value_or(Method::none);
   }
   return played;
 }
@@ -87,8 +89,11 @@ Hands hands_of(const PlayedCase& played, std::size_t frame, std::size_t method,
     const auto& tracked = played.tracked.frames[frame].hands[side];
     const auto& corrected = played.corrected[method].frames[frame].hands[side];
     if (!tracked || !corrected) continue;
-    hands[side] = draw::StagedHand{
-        tracked->pose, corrected->pose, {}, hand_scale(drawn.meshes[side], tracked->pose)};
+    hands[side] = draw::StagedHand{tracked->pose,
+                                   corrected->pose,
+                                   {},
+                                   hand_scale(drawn.meshes[side], tracked->pose),
+                                   played.drawn[method]};
   }
   return hands;
 }

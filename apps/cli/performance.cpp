@@ -219,7 +219,7 @@ Result<std::optional<Moment>> MomentReader::next() {
     const auto& hand = (*frame)->hands[side];
     if (!hand) continue;
     draw::StagedHand staged{hand->pose, hand->pose, contacts_of(*hand, hand->pose),
-                            performance_.scale[side]};
+                            performance_.scale[side], performance_.drawn};
     if (corrected_) {
       if (const auto& corrected = partner_->hands[side]) {
         staged.corrected = corrected->pose;

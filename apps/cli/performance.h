@@ -56,6 +56,7 @@ struct Performance {
   std::optional<std::string> corrected;
   CorrectorOptions method;  ///< none where the recording is itself corrected
   std::array<double, 2> scale{1.0, 1.0};
+  Method drawn = Method::none;  ///< by which the hands are corrected, or were
 };
 
 /// Plays a performance, one frame after another.

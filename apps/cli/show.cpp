@@ -17,7 +17,8 @@ namespace {
 struct Headers {
   std::optional<ObjectPlacing> placing;
   double softness_m = 0.0;
-  bool is_corrected = false;  ///< the first recording names a method
+  Method method = Method::none;  ///< of the corrected one
+  bool is_corrected = false;     ///< the first recording names a method
   bool second_is_corrected = false;
 };
 
@@ -40,6 +41,8 @@ Result<Headers> read_headers(const ShowArguments& arguments) {
     if (!headers.placing) headers.placing = *placing;
     const double softness_m = softness_from(header->unknown_json);
     if (softness_m > 0.0) headers.softness_m = softness_m;
+    const std::optional<Method> method = method_from_name(method_of(*header));
+    if (method && *method != Method::none) headers.method = *method;
     headers.second_is_corrected = headers.is_corrected;  // which is read first
     headers.is_corrected = is_corrected(*header);
   }
@@ -111,9 +114,12 @@ Result<Show> prepare(const ShowArguments& arguments) {
   }
   placed->start_animation(seen->first_ns);
   Performance performance{arguments.recording, arguments.corrected, options_of(arguments.method),
-                          seen->scale};
+                          seen->scale, headers->method};
   use_own_hands(arguments.hands, *hands, performance.method);
   if (headers->is_corrected) performance.method.method = Method::none;
+  if (!headers->is_corrected && !arguments.corrected) {
+    performance.drawn = performance.method.method;
+  }
   const double softness_m = std::max(performance.method.settle.softness_m, headers->softness_m);
   return Show{std::move(hands).value(),
               std::move(seen).value(),

@@ -177,12 +177,14 @@ void Session::begin_clip() {
 Status Session::stand_as_recorded() {
   recorded_.reset();
   recorded_softness_m_ = 0.0;
+  recorded_method_ = Method::none;
   const RecordingHeader& header = clip_->header();
   if (!method_of(header).empty()) {
     method_before_ = std::exchange(setup_.corrector.method, Method::none);
     notices_.push_back(
         fmt::format("{} is corrected already: it is shown as it is, method none", clip_->path()));
     recorded_softness_m_ = softness_from(header.unknown_json);
+    recorded_method_ = method_from_name(method_of(header)).value_or(Method::none);
   }
   const auto recorded = placing_from(header.unknown_json, clip_->path());
   if (!recorded) return recorded.error();
@@ -217,6 +219,11 @@ double Session::softness_m() const {
       break;
   }
   return 0.0;
+}
+
+Method Session::drawn_method() const {
+  const Method method = setup_.corrector.method;
+  return method == Method::none && clip_begun_ ? recorded_method_ : method;
 }
 
 void Session::seek(std::size_t index) {
@@ -314,7 +321,8 @@ void Session::correct(const HandPose& tracked, std::int64_t time_ns, Measured me
   const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
   corrected_[side] = &corrected;
   if (!scales_[side]) scales_[side] = hand_scale(setup_.meshes[side], tracked);
-  hands_[side] = draw::StagedHand{tracked, corrected.pose, corrected.contacts, scales_[side]};
+  hands_[side] =
+      draw::StagedHand{tracked, corrected.pose, corrected.contacts, scales_[side], drawn_method()};
   if (measured == Measured::no) return;
   const bool timed = setup_.timing == Timing::real;
   figures_.add(time_ns, *hands_[side], where,

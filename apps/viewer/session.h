@@ -103,6 +103,8 @@ class Session {
   /// Of the object as it is drawn: as set for the method nade, of hands corrected already as they
   /// were recorded.
   [[nodiscard]] double softness_m() const;
+  /// By which the drawn hands are corrected, or were when they were recorded.
+  [[nodiscard]] Method drawn_method() const;
   [[nodiscard]] const Placement& placement() const { return placement_; }
   [[nodiscard]] Object object() const { return loaded_->placed(placement_); }
   /// For how long the mouse has moved the hand, which is how far on the object's animation is then.
@@ -138,6 +140,7 @@ class Session {
   bool clip_begun_ = false;
   std::optional<ObjectPlacing> recorded_;  ///< as the recording's header says
   double recorded_softness_m_ = 0.0;
+  Method recorded_method_ = Method::none;  ///< by which a clip was corrected
   std::size_t clips_begun_ = 0;
   std::optional<Clip> clip_before_;  ///< until the new one is known to be whole
   Playback playback_;

@@ -292,6 +292,7 @@ void Room::arrange(const TrackedFrame& frame) {
     staged.hands[side]->tracked = hands_[side]->tracked;
     staged.hands[side]->corrected = hands_[side]->corrected.pose;
     staged.hands[side]->contacts = hands_[side]->corrected.contacts;
+    staged.hands[side]->method = show_.method;
   }
   if (scenery_ != nullptr) {
     scenery_->stage->set_placement(object_placement());

@@ -40,6 +40,7 @@ struct DrawnHand {
   MeshId ghost{};
   SkinPoser poser;
   SkinPoser ghost_poser;
+  SkinFlattener flattener;
   std::vector<Color> own_colors;  ///< of the skin; empty where a texture has them
   bool shows_depth = false;
 };
@@ -111,8 +112,8 @@ struct Stage::Impl {
       DrawnMesh skin = paint_skin(mesh);
       const MeshId solid = renderer->add(skin);
       const MeshId ghost = renderer->add(plain_hand(mesh));
-      drawn[side].emplace(
-          DrawnHand{solid, ghost, SkinPoser(mesh), SkinPoser(mesh), std::move(skin.colors)});
+      drawn[side].emplace(DrawnHand{solid, ghost, SkinPoser(mesh), SkinPoser(mesh),
+                                    SkinFlattener(mesh), std::move(skin.colors)});
     }
     return &*drawn[side];
   }
@@ -144,13 +145,17 @@ struct Stage::Impl {
     const double scale = hand.scale.value_or(hand_scale(hands[side], hand.tracked));
     const HandPose& solid = frame.shown == Shown::tracked ? hand.tracked : hand.corrected;
     to->poser.pose(solid, scale);
-    renderer->set_shape(to->solid, to->poser.positions(), to->poser.normals());
     if (frame.overlays.penetration && object != nullptr) {
       show_depth(*to);
     } else if (to->shows_depth) {
       renderer->set_colors(to->solid, to->own_colors);
       to->shows_depth = false;
     }
+    if (hand.method == Method::nade && frame.shown != Shown::tracked && object != nullptr) {
+      const double give_m = gives_way(frame) ? frame.softness_m + kDentMore : 0.0;
+      to->poser.flatten(to->flattener, object->placed(placement), solid, scale, give_m);
+    }
+    renderer->set_shape(to->solid, to->poser.positions(), to->poser.normals());
     scene.instances.push_back({to->solid, {}});
     hand_instances.push_back(scene.instances.back());
     if (gives_way(frame) && object != nullptr) {

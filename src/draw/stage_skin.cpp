@@ -40,6 +40,11 @@ void SkinPoser::pose(const HandPose& hand, double scale) {
   compute_normals();
 }
 
+void SkinPoser::flatten(SkinFlattener& flattener, const Object& object, const HandPose& hand,
+                        double scale, double give_m) {
+  flattener.flatten(object, hand, scale, give_m, positions_, positions_, normals_);
+}
+
 void SkinPoser::compute_normals() {
   std::fill(normals_.begin(), normals_.end(), Vec3f::Zero());
   for (const auto& triangle : mesh_->triangles) {

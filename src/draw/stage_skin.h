@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "nade/draw/scene.h"
+#include "nade/flatten_skin.h"
 #include "nade/hand_mesh.h"
 #include "nade/surface.h"
 
@@ -24,6 +25,9 @@ class SkinPoser {
   explicit SkinPoser(const HandMesh& mesh);
 
   void pose(const HandPose& hand, double scale);
+  /// Of the hand as last posed; `flattener` is of the same mesh.
+  void flatten(SkinFlattener& flattener, const Object& object, const HandPose& hand, double scale,
+               double give_m);
   [[nodiscard]] std::span<const Eigen::Vector3f> positions() const { return positions_; }
   [[nodiscard]] std::span<const Eigen::Vector3f> normals() const { return normals_; }
 

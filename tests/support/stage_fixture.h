@@ -72,22 +72,23 @@ class StageTest : public testing::Test {
   [[nodiscard]] const HandMesh& mesh(Handedness side) const { return hands_[index_of(side)]; }
   [[nodiscard]] Object object() const { return object_->placed(placement_); }
 
-  static StageFrame frame_of(const HandPose& hand) {
+  static StageFrame frame_of(const HandPose& hand, Method method = Method::none) {
     StageFrame frame;
-    frame.hands[index_of(hand.side)] = StagedHand{hand, hand, {}, {}};
+    frame.hands[index_of(hand.side)] = StagedHand{hand, hand, {}, {}, method};
     return frame;
   }
 
-  DepthMap hand_depths(const HandPose& hand, const Camera& camera) {
-    static_cast<void>(stage_->arrange(frame_of(hand)));
+  DepthMap hand_depths(const HandPose& hand, const Camera& camera, Method method = Method::none) {
+    static_cast<void>(stage_->arrange(frame_of(hand, method)));
     return renderer_->depths(stage_->hand_only(), camera, kWidth, kHeight, Faces::front);
   }
 
   /// Pixels where the hand's nearest skin lies in the object: behind its front, before its back,
   /// by more than half a millimetre.
-  std::size_t penetrating_pixels(const HandPose& hand, const Camera& camera) {
+  std::size_t penetrating_pixels(const HandPose& hand, const Camera& camera,
+                                 Method method = Method::none) {
     constexpr float kTolerance = 0.0005F;
-    const DepthMap skin = hand_depths(hand, camera);
+    const DepthMap skin = hand_depths(hand, camera, method);
     const Scene scene = stage_->object_only();
     const DepthMap front = renderer_->depths(scene, camera, kWidth, kHeight, Faces::front);
     const DepthMap back = renderer_->depths(scene, camera, kWidth, kHeight, Faces::back);

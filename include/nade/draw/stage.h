@@ -35,6 +35,9 @@ struct StagedHand {
   Contacts contacts{};
   /// Of the skin against its mesh; without a value this tracked hand's `hand_scale`.
   std::optional<double> scale;
+  /// By which it was corrected. Skin of `Method::nade` is drawn flattened where it is sunk in the
+  /// object; that of other methods, and of the tracked hand, as it is posed.
+  Method method = Method::none;
 };
 
 /// Everything to be shown at one moment.
