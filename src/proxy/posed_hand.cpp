@@ -34,33 +34,6 @@ std::size_t leading_digit(const FleshPoint& point) {
   return *most > 0.0 ? static_cast<std::size_t>(most - shares.begin()) : kDigitCount;
 }
 
-/// What one freedom of a digit does to a point: the share of it that turns about an axis, and the
-/// way there from the axis.
-struct Arm {
-  Eigen::Index freedom;
-  double share;
-  const Vec3& axis;
-  Vec3 reach;
-};
-
-/// The arms of a point with the freedoms of one digit, if any; gives where the point is.
-template <class Take>
-Vec3 for_each_arm(const PosedHand& posed, const FleshPoint& point, std::size_t digit, Take take) {
-  Vec3 position = Vec3::Zero();
-  for (std::size_t k = 0; k < point.joints.size() && point.weights[k] > 0.0; ++k) {
-    const std::size_t joint = point.joints[k];
-    const Vec3 carried = posed.flesh.carried(joint, point.local[k]).head<3>();
-    position += point.weights[k] * carried;
-    if (digit == kDigitCount || kCarriers[joint].digit != digit) continue;
-    const DigitAxes& axes = posed.axes[digit];
-    for (std::size_t f = 0; f < kCarriers[joint].freedoms; ++f) {
-      take(Arm{static_cast<Eigen::Index>(f), point.weights[k], axes.axis[f],
-               carried - axes.center[f]});
-    }
-  }
-  return position;
-}
-
 }  // namespace
 
 HandModel measure_model(const HandPose& tracked, double scale) noexcept {
@@ -112,9 +85,18 @@ ContactRow motion_along(const PosedHand& posed, const FleshPoint& point,
                         const Vec3& direction) noexcept {
   ContactRow row;
   const std::size_t digit = leading_digit(point);
-  const Vec3 position = for_each_arm(posed, point, digit, [&](const Arm& arm) {
-    row.bend[arm.freedom] += arm.share * arm.axis.dot(arm.reach.cross(direction));
-  });
+  Vec3 position = Vec3::Zero();
+  for (std::size_t k = 0; k < point.joints.size() && point.weights[k] > 0.0; ++k) {
+    const std::size_t joint = point.joints[k];
+    const Vec3 carried = posed.flesh.carried(joint, point.local[k]).head<3>();
+    position += point.weights[k] * carried;
+    if (digit == kDigitCount || kCarriers[joint].digit != digit) continue;
+    const DigitAxes& axes = posed.axes[digit];
+    for (std::size_t f = 0; f < kCarriers[joint].freedoms; ++f) {
+      row.bend[static_cast<Eigen::Index>(f)] +=
+          point.weights[k] * axes.axis[f].dot((carried - axes.center[f]).cross(direction));
+    }
+  }
   row.wrist.head<3>() = direction;
   row.wrist.tail<3>() = (position - posed.hand[Joint::palm].position).cross(direction);
   if (digit != kDigitCount) row.digit = digit_at(digit);

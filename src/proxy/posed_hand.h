@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "freedoms.h"
 #include "nade/correction.h"
@@ -40,6 +41,46 @@ struct PosedFlesh {
   }
 };
 [[nodiscard]] PosedFlesh pose_flesh(const HandPose& hand, double scale) noexcept;
+
+/// A plane as the joints' frames have it. There a point's gap takes a fraction of what the point's
+/// place takes.
+class CarriedPlane {
+ public:
+  CarriedPlane(const PosedFlesh& flesh, const Vec3& normal, const Vec3& point) noexcept
+      : flesh_(flesh), normal_(normal), height_(normal.dot(point)) {}
+
+  [[nodiscard]] double gap_of(const FleshPoint& point) noexcept {
+    double gap = 0.0;
+    for (std::size_t k = 0; k < point.joints.size() && point.weights[k] > 0.0; ++k) {
+      const InJoint& plane = in_joint(point.joints[k]);
+      gap += point.weights[k] * (plane.normal.dot(point.local[k]) + plane.gap);
+    }
+    return gap;
+  }
+
+ private:
+  struct InJoint {
+    Vec3 normal;
+    double gap;  ///< of the origin
+  };
+
+  const InJoint& in_joint(std::size_t joint) noexcept {
+    InJoint& plane = planes_[joint];
+    const std::uint32_t bit = 1U << joint;
+    if ((known_ & bit) != 0) return plane;
+    known_ |= bit;
+    const Eigen::Matrix4d& by = flesh_.carry[joint];
+    for (int axis = 0; axis < 3; ++axis) plane.normal[axis] = by.col(axis).head<3>().dot(normal_);
+    plane.gap = by.col(3).head<3>().dot(normal_) - height_;
+    return plane;
+  }
+
+  const PosedFlesh& flesh_;
+  Vec3 normal_;
+  double height_;
+  std::uint32_t known_ = 0;  ///< by joint, whether `planes_` has it
+  std::array<InJoint, kJointCount> planes_;
+};
 
 /// The hand with a correction applied, ready for derivatives.
 struct PosedHand {
