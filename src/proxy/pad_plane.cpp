@@ -13,8 +13,8 @@ namespace {
 /// shorter and no longer way than these; or for this share of how far its skin is from touching.
 constexpr double kBentAway_m = 0.0001;
 constexpr double kLeastSame_m = 0.00002;
-constexpr double kMostSame_m = 0.0015;
-constexpr double kSameOfGap = 0.2;
+constexpr double kMostSame_m = 0.0025;
+constexpr double kSameOfGap = 0.4;
 /// A pad that is too far is not looked at again until it could have come so much nearer.
 constexpr double kFarSlack_m = 0.02;
 /// And then from so much farther out: the larger a ball is that rests on the surface, the farther
