@@ -40,10 +40,10 @@ bool is_palm(SkinRegion region) {
 }
 
 /// Adds how far the hand has gone against the object since the last look.
-void count_travel(const PosedFlesh& flesh, ProxyState& state) {
+void count_travel(const HandPose& hand, ProxyState& state) {
   double farthest = 0.0;
   for (std::size_t i = 0; i < kJointCount; ++i) {
-    const Vec3 origin = flesh.origin(i);
+    const Vec3& origin = hand.joints[i].position;
     farthest = std::max(farthest, (origin - state.joints[i]).squaredNorm());
     state.joints[i] = origin;
   }
@@ -70,7 +70,7 @@ class Finder {
 
   FoundContacts run() {
     state_.terms.clear();
-    count_travel(posed_.flesh, state_);
+    count_travel(posed_.hand, state_);
     PadLooks looks{search_.object,
                    search_.before ? &*search_.before : nullptr,
                    std::nullopt,
@@ -102,23 +102,21 @@ class Finder {
     if (left_of(middle, state_.travel_m, known) > reach_m) return;
     if (!find_plane(looks, pad.middle, middle, reach_m, known)) return;
     const PadPlane plane = bent_plane(known, middle);
-    CarriedPlane carried(posed_.flesh, plane.normal, plane.point);
     const double room_m =
         plane.normal.dot(middle - plane.point) - kStretch * search_.scale * pad.radius_m;
     if (room_m > skin_reach_m_ && !pad.part) {
       known.same_m = plane_serves(known, room_m);
-      if (pad.palmar) draw_near(*pad.palmar, plane, carried, 1.0);
+      if (pad.palmar) draw_near(*pad.palmar, plane, 1.0);
       return;
     }
     const Side nearest = side_at(pad, middle, plane);
-    const Lowest lowest = keep_out(pad, nearest, carried);
+    const Lowest lowest = keep_out(pad, nearest);
     for (const PadPlane& side : known.beside.seen()) {
-      CarriedPlane beside(posed_.flesh, side.normal, side.point);
-      (void)keep_out(pad, side_at(pad, middle, side), beside);
+      (void)keep_out(pad, side_at(pad, middle, side));
     }
     known.same_m = plane_serves(known, lowest.gap_m);
     brake(lowest, plane);
-    if (pad.palmar) draw_near(*pad.palmar, plane, carried, 1.0 - nearest.ramp);
+    if (pad.palmar) draw_near(*pad.palmar, plane, 1.0 - nearest.ramp);
     if (pad.part) touch_part(*pad.part, lowest, plane);
     const double slack_m = lowest.gap_m - skin_reach_m_;
     if (!pad.palmar && slack_m > 0.0) {
@@ -151,12 +149,16 @@ class Finder {
     return &term;
   }
 
-  Lowest keep_out(const FleshPad& pad, const Side& side, CarriedPlane& plane) {
+  [[nodiscard]] double gap_of(const FleshPoint& point, const PadPlane& plane) const {
+    return plane.normal.dot(posed_.flesh.position(point) - plane.point);
+  }
+
+  Lowest keep_out(const FleshPad& pad, const Side& side) {
     Lowest lowest;
     const double slope = side.normal.dot(side.plane.normal);
     for (std::uint32_t k = pad.first; k < pad.first + pad.count; ++k) {
       const FleshPoint& point = search_.flesh.skin[k];
-      const double gap_m = plane.gap_of(point);
+      const double gap_m = gap_of(point, side.plane);
       if (gap_m < lowest.gap_m) lowest = {gap_m, k};
       const double given_m = search_.flesh.depth_m[k] + search_.sink_m;
       if (gap_m + given_m > search_.reach_m) continue;
@@ -184,10 +186,9 @@ class Finder {
   }
 
   /// `weight`: 0 to 1.
-  void draw_near(const PalmarPatch& patch, const PadPlane& plane, CarriedPlane& carried,
-                 double weight) {
+  void draw_near(const PalmarPatch& patch, const PadPlane& plane, double weight) {
     const ProxyTuning& tuning = search_.tuning;
-    const double gap_m = carried.gap_of(patch.middle) + search_.sink_m;
+    const double gap_m = gap_of(patch.middle, plane) + search_.sink_m;
     const double depth_m = plane.normal.dot(plane.point - search_.tracked.position(patch.middle));
     const double near =
         smoothstep(-tuning.adhesion_reach_m, kFade_m - tuning.adhesion_reach_m, -gap_m);

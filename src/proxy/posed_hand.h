@@ -20,67 +20,32 @@ struct HandModel {
 
 /// Where the joints carry the flesh.
 struct PosedFlesh {
-  /// Rotation times scale, and the origin: in fours, which processors add at once.
-  std::array<Eigen::Matrix4d, kJointCount> carry{};
+  Vec3 palm = Vec3::Zero();
+  /// Rotation times scale, and the origin as seen from `palm`: in four floats, which processors add
+  /// at once.
+  std::array<Eigen::Matrix4f, kJointCount> carry{};
 
   [[nodiscard]] Vec3 origin(std::size_t joint) const noexcept {
-    return carry[joint].col(3).head<3>();
+    return palm + carry[joint].col(3).head<3>().cast<double>();
   }
 
-  [[nodiscard]] Eigen::Vector4d carried(std::size_t joint, const Vec3& local) const noexcept {
-    const Eigen::Matrix4d& by = carry[joint];
-    return by.col(0) * local.x() + by.col(1) * local.y() + by.col(2) * local.z() + by.col(3);
+  /// A joint's share in a point's place, as seen from `palm`; and its weight.
+  [[nodiscard]] Eigen::Vector4f carried(std::size_t joint,
+                                        const Eigen::Vector4f& share) const noexcept {
+    const Eigen::Matrix4f& by = carry[joint];
+    return by.col(0) * share.x() + by.col(1) * share.y() + by.col(2) * share.z() +
+           by.col(3) * share.w();
   }
 
   [[nodiscard]] Vec3 position(const FleshPoint& point) const noexcept {
-    Eigen::Vector4d sum = Eigen::Vector4d::Zero();
-    for (std::size_t k = 0; k < point.joints.size() && point.weights[k] > 0.0; ++k) {
-      sum += point.weights[k] * carried(point.joints[k], point.local[k]);
+    Eigen::Vector4f sum = Eigen::Vector4f::Zero();
+    for (std::size_t k = 0; k < point.joints.size() && point.shares[k].w() > 0.0F; ++k) {
+      sum += carried(point.joints[k], point.shares[k]);
     }
-    return sum.head<3>();
+    return palm + sum.head<3>().cast<double>();
   }
 };
 [[nodiscard]] PosedFlesh pose_flesh(const HandPose& hand, double scale) noexcept;
-
-/// A plane as the joints' frames have it. There a point's gap takes a fraction of what the point's
-/// place takes.
-class CarriedPlane {
- public:
-  CarriedPlane(const PosedFlesh& flesh, const Vec3& normal, const Vec3& point) noexcept
-      : flesh_(flesh), normal_(normal), height_(normal.dot(point)) {}
-
-  [[nodiscard]] double gap_of(const FleshPoint& point) noexcept {
-    double gap = 0.0;
-    for (std::size_t k = 0; k < point.joints.size() && point.weights[k] > 0.0; ++k) {
-      const InJoint& plane = in_joint(point.joints[k]);
-      gap += point.weights[k] * (plane.normal.dot(point.local[k]) + plane.gap);
-    }
-    return gap;
-  }
-
- private:
-  struct InJoint {
-    Vec3 normal;
-    double gap;  ///< of the origin
-  };
-
-  const InJoint& in_joint(std::size_t joint) noexcept {
-    InJoint& plane = planes_[joint];
-    const std::uint32_t bit = 1U << joint;
-    if ((known_ & bit) != 0) return plane;
-    known_ |= bit;
-    const Eigen::Matrix4d& by = flesh_.carry[joint];
-    for (int axis = 0; axis < 3; ++axis) plane.normal[axis] = by.col(axis).head<3>().dot(normal_);
-    plane.gap = by.col(3).head<3>().dot(normal_) - height_;
-    return plane;
-  }
-
-  const PosedFlesh& flesh_;
-  Vec3 normal_;
-  double height_;
-  std::uint32_t known_ = 0;  ///< by joint, whether `planes_` has it
-  std::array<InJoint, kJointCount> planes_;
-};
 
 /// The hand with a correction applied, ready for derivatives.
 struct PosedHand {
