@@ -1,6 +1,7 @@
 #include "solver.h"
 
 #include <cmath>
+#include <span>
 
 namespace nade {
 namespace {
@@ -122,7 +123,7 @@ class Newton {
 
   const Springs& springs_;
   const StepRange& range_;
-  const std::vector<ContactTerm>& terms_;
+  std::span<const ContactTerm> terms_;
   SolverRoom& room_;
   HandFreedoms slope_ = HandFreedoms::Zero();  ///< of the springs
   ArrowMatrix hessian_;                        ///< with the terms and walls that acted last
