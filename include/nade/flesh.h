@@ -15,9 +15,16 @@ namespace nade {
 /// are.
 struct FleshPoint {
   std::array<std::uint8_t, 4> joints{};  ///< as index_of(Joint)
-  std::array<double, 4> weights{};       ///< sum to 1, largest first
-  std::array<Vec3, 4> local{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(),
-                            Vec3::Zero()};  ///< in each joint's frame, the mesh's own size
+  /// By joint: where the joint's frame has the point, in the mesh's own size, times its weight; and
+  /// the weight. Weights sum to 1, largest first. Floats hold that to 1e-8 metres.
+  std::array<Eigen::Vector4f, 4> shares{Eigen::Vector4f::Zero(), Eigen::Vector4f::Zero(),
+                                        Eigen::Vector4f::Zero(), Eigen::Vector4f::Zero()};
+
+  /// Takes a joint of that weight in as number `k`.
+  void attach(std::size_t k, std::size_t joint, double weight, const Vec3& local) noexcept {
+    joints[k] = static_cast<std::uint8_t>(joint);
+    shares[k] << (weight * local).cast<float>(), static_cast<float>(weight);
+  }
 };
 
 /// Where a hand that is so many times the mesh's size has it.

@@ -77,18 +77,19 @@ std::optional<Part> patch_of(const HandMesh& mesh, const SkinDepths& depths, std
 }
 
 FleshPoint attach(const HandPose& bind, const Vec3& position, JointWeights weights) {
-  FleshPoint point;
+  std::array<std::pair<std::size_t, double>, 4> most;
   double sum = 0.0;
-  for (std::size_t k = 0; k < point.joints.size(); ++k) {
-    const std::size_t joint = heaviest(weights);
-    point.joints[k] = static_cast<std::uint8_t>(joint);
-    point.weights[k] = weights[joint];
-    point.local[k] = bind.joints[joint].inverse().apply(position);
-    sum += weights[joint];
-    weights[joint] = 0.0;
+  for (auto& [joint, weight] : most) {
+    joint = heaviest(weights);
+    weight = std::exchange(weights[joint], 0.0);
+    sum += weight;
   }
   NADE_ASSERT(sum > 0.0);
-  for (double& weight : point.weights) weight /= sum;
+  FleshPoint point;
+  for (std::size_t k = 0; k < most.size(); ++k) {
+    const auto [joint, weight] = most[k];
+    point.attach(k, joint, weight / sum, bind.joints[joint].inverse().apply(position));
+  }
   return point;
 }
 
@@ -248,8 +249,7 @@ std::vector<PatchSum> gather_patches(const HandMesh& mesh, const SkinMap& skin,
 Indices pads_apart(const HandMesh& mesh, const HandFlesh& flesh,
                    const std::vector<PatchSum>& sums) {
   const auto middle_of = [&](std::size_t p) {
-    const FleshPoint& middle = flesh.pads[p].middle;
-    return mesh.bind.joints[middle.joints[0]].apply(middle.local[0]);
+    return position_of(flesh.pads[p].middle, mesh.bind, 1.0);
   };
   Indices by_area;
   for (std::size_t p = 0; p < sums.size(); ++p) {
@@ -300,9 +300,12 @@ void add_skin(const HandMesh& mesh, CutHand& cut) {
 }  // namespace
 
 Vec3 position_of(const FleshPoint& point, const HandPose& hand, double scale) noexcept {
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t k = 0; k < point.joints.size() && point.weights[k] > 0.0; ++k) {
-    sum += point.weights[k] * hand.joints[point.joints[k]].apply(scale * point.local[k]);
+  const Vec3& palm = hand[Joint::palm].position;  // floats are coarse far from the origin
+  Vec3 sum = palm;
+  for (std::size_t k = 0; k < point.joints.size() && point.shares[k].w() > 0.0F; ++k) {
+    const Pose& joint = hand.joints[point.joints[k]];
+    const Eigen::Vector4d share = point.shares[k].cast<double>();
+    sum += joint.rotation * (scale * share.head<3>()) + share.w() * (joint.position - palm);
   }
   return sum;
 }

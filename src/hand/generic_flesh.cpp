@@ -21,20 +21,14 @@ HandPose bind_pose() {
 FleshPoint attached(const detail::FleshRow& row, const HandPose& bind) {
   Vec3 position = 1e-5 * Vec3(row[0], row[1], row[2]);
   if (bind.side == Handedness::left) position.x() = -position.x();
-  FleshPoint point;
   double sum = 0.0;
-  for (std::size_t k = 0; k < point.joints.size(); ++k) {
-    point.joints[k] = static_cast<std::uint8_t>(row[3 + 2 * k]);
-    point.weights[k] = row[4 + 2 * k];
-    point.local[k] = bind.joints[point.joints[k]].inverse().apply(position);
-    sum += point.weights[k];
+  for (std::size_t k = 0; k < 4; ++k) sum += row[4 + 2 * k];
+  FleshPoint point;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto joint = static_cast<std::size_t>(row[3 + 2 * k]);
+    point.attach(k, joint, row[4 + 2 * k] / sum, bind.joints[joint].inverse().apply(position));
   }
-  for (double& weight : point.weights) weight /= sum;
   return point;
-}
-
-Vec3 position_in(const HandPose& bind, const FleshPoint& point) {
-  return bind.joints[point.joints[0]].apply(point.local[0]);
 }
 
 HandFlesh make_generic_flesh(Handedness side) {
@@ -56,9 +50,10 @@ HandFlesh make_generic_flesh(Handedness side) {
       pad.palmar = PalmarPatch{attached(row.palmar, bind), 1e-6 * row.area_mm2,
                                static_cast<SkinRegion>(row.region)};
     }
-    const Vec3 middle = position_in(bind, pad.middle);
+    const Vec3 middle = position_of(pad.middle, bind, 1.0);
     for (std::uint32_t k = first; k < first + pad.count; ++k) {
-      pad.radius_m = std::max(pad.radius_m, (position_in(bind, flesh.skin[k]) - middle).norm());
+      pad.radius_m =
+          std::max(pad.radius_m, (position_of(flesh.skin[k], bind, 1.0) - middle).norm());
     }
     first += pad.count;
   }

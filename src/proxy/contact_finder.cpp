@@ -40,10 +40,10 @@ bool is_palm(SkinRegion region) {
 }
 
 /// Adds how far the hand has gone against the object since the last look.
-void count_travel(const PosedFlesh& flesh, ProxyState& state) {
+void count_travel(const HandPose& hand, ProxyState& state) {
   double farthest = 0.0;
   for (std::size_t i = 0; i < kJointCount; ++i) {
-    const Vec3 origin = flesh.origin(i);
+    const Vec3& origin = hand.joints[i].position;
     farthest = std::max(farthest, (origin - state.joints[i]).squaredNorm());
     state.joints[i] = origin;
   }
@@ -70,8 +70,12 @@ class Finder {
 
   FoundContacts run() {
     state_.terms.clear();
-    count_travel(posed_.flesh, state_);
-    PadLooks looks{search_.object, std::nullopt, state_.travel_m, {}};
+    count_travel(posed_.hand, state_);
+    PadLooks looks{search_.object,
+                   search_.before ? &*search_.before : nullptr,
+                   std::nullopt,
+                   state_.travel_m,
+                   {}};
     if (search_.planes_lost) looks.palm = posed_.hand[Joint::palm].position;
     const ProxyTuning& tuning = search_.tuning;
     pressed_ = smoothstep(kNotPressed_m, tuning.pressed_m, search_.deepest_m);
@@ -96,9 +100,7 @@ class Finder {
     if (known.free_m - state_.travel_m > reach_m) return;
     const Vec3 middle = posed_.flesh.position(pad.middle);
     if (left_of(middle, state_.travel_m, known) > reach_m) return;
-    const Vec3 way =
-        search_.before ? Vec3(middle - search_.before->position(pad.middle)) : Vec3::Zero();
-    if (!find_plane(looks, middle, way, reach_m, known)) return;
+    if (!find_plane(looks, pad.middle, middle, reach_m, known)) return;
     const PadPlane plane = bent_plane(known, middle);
     const double room_m =
         plane.normal.dot(middle - plane.point) - kStretch * search_.scale * pad.radius_m;

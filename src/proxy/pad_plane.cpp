@@ -13,8 +13,8 @@ namespace {
 /// shorter and no longer way than these; or for this share of how far its skin is from touching.
 constexpr double kBentAway_m = 0.0001;
 constexpr double kLeastSame_m = 0.00002;
-constexpr double kMostSame_m = 0.0015;
-constexpr double kSameOfGap = 0.2;
+constexpr double kMostSame_m = 0.0025;
+constexpr double kSameOfGap = 0.4;
 /// A pad that is too far is not looked at again until it could have come so much nearer.
 constexpr double kFarSlack_m = 0.02;
 /// And then from so much farther out: the larger a ball is that rests on the surface, the farther
@@ -214,7 +214,7 @@ double left_of(const Vec3& middle, double travel_m, PadMemory& known) noexcept {
   return left_m;
 }
 
-bool find_plane(PadLooks& looks, const Vec3& middle, const Vec3& way, double reach_m,
+bool find_plane(PadLooks& looks, const FleshPoint& point, const Vec3& middle, double reach_m,
                 PadMemory& known) noexcept {
   const ScaledSurface& object = looks.object;
   const double away_m = away_of(middle, known);
@@ -234,6 +234,7 @@ bool find_plane(PadLooks& looks, const Vec3& middle, const Vec3& way, double rea
   const std::optional<SurfacePoint> same =
       before ? on_side_of(object, *before, *nearest, middle, search_m, known.hint) : std::nullopt;
   if (same) known.plane = PadPlane{middle, same->point, same->normal};
+  const Vec3 way = looks.before ? Vec3(middle - looks.before->position(point)) : Vec3::Zero();
   const std::optional<PadPlane> wall = wall_on_way(object, middle, way);
   if (wall && wall->normal.dot(known.plane->normal) <= kOtherSide) known.plane = wall;
   // In a corner no direction in between keeps out of both sides. A hand found anew comes from none.

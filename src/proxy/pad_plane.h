@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "posed_hand.h"
 #include "scaled_surface.h"
 
 namespace nade {
@@ -67,6 +68,7 @@ class FreeBalls {
 /// How the pads of a hand look at the surface in one round.
 struct PadLooks {
   const ScaledSurface& object;
+  const PosedFlesh* before;  ///< the last frame's hand, if any
   std::optional<Vec3> palm;  ///< of a hand found anew
   double travel_m = 0.0;     ///< `ProxyState::travel_m`
   FreeBalls free;
@@ -75,11 +77,12 @@ struct PadLooks {
 /// How much of a pad's clearance is left, at least, that has its middle there now; metres.
 [[nodiscard]] double left_of(const Vec3& middle, double travel_m, PadMemory& known) noexcept;
 
-/// Whether a pad is within `reach_m`; its plane then is found anew, or as it was. Where a thin wall
-/// is between it and the palm of a hand found anew, the palm's side of it counts; where a wall is
-/// on the way that it came since the last frame, the side that it came from.
-[[nodiscard]] bool find_plane(PadLooks& looks, const Vec3& middle, const Vec3& way, double reach_m,
-                              PadMemory& known) noexcept;
+/// Whether a pad whose middle is there now is within `reach_m`; its plane then is found anew, or as
+/// it was. Where a thin wall is between it and the palm of a hand found anew, the palm's side of it
+/// counts; where a wall is on the way that it came since the last frame, the side that it came
+/// from.
+[[nodiscard]] bool find_plane(PadLooks& looks, const FleshPoint& point, const Vec3& middle,
+                              double reach_m, PadMemory& known) noexcept;
 
 /// The plane for a pad that has gone on since its own was found, over a surface that goes on to
 /// bend as it did on the way there.

@@ -26,39 +26,12 @@ constexpr std::array<Carrier, kJointCount> kCarriers = make_carriers();
 
 /// The digit that moves a point most; kDigitCount where none does.
 std::size_t leading_digit(const FleshPoint& point) {
-  std::array<double, kDigitCount + 1> shares{};
-  for (std::size_t k = 0; k < point.joints.size(); ++k) {
-    shares[kCarriers[point.joints[k]].digit] += point.weights[k];
+  std::array<float, kDigitCount + 1> shares{};
+  for (std::size_t k = 0; k < point.joints.size() && point.shares[k].w() > 0.0F; ++k) {
+    shares[kCarriers[point.joints[k]].digit] += point.shares[k].w();
   }
   const auto most = std::max_element(shares.begin(), shares.begin() + kDigitCount);
-  return *most > 0.0 ? static_cast<std::size_t>(most - shares.begin()) : kDigitCount;
-}
-
-/// What one freedom of a digit does to a point: the share of it that turns about an axis, and the
-/// way there from the axis.
-struct Arm {
-  Eigen::Index freedom;
-  double share;
-  const Vec3& axis;
-  Vec3 reach;
-};
-
-/// The arms of a point with the freedoms of one digit, if any; gives where the point is.
-template <class Take>
-Vec3 for_each_arm(const PosedHand& posed, const FleshPoint& point, std::size_t digit, Take take) {
-  Vec3 position = Vec3::Zero();
-  for (std::size_t k = 0; k < point.joints.size() && point.weights[k] > 0.0; ++k) {
-    const std::size_t joint = point.joints[k];
-    const Vec3 carried = posed.flesh.carried(joint, point.local[k]).head<3>();
-    position += point.weights[k] * carried;
-    if (digit == kDigitCount || kCarriers[joint].digit != digit) continue;
-    const DigitAxes& axes = posed.axes[digit];
-    for (std::size_t f = 0; f < kCarriers[joint].freedoms; ++f) {
-      take(Arm{static_cast<Eigen::Index>(f), point.weights[k], axes.axis[f],
-               carried - axes.center[f]});
-    }
-  }
-  return position;
+  return *most > 0.0F ? static_cast<std::size_t>(most - shares.begin()) : kDigitCount;
 }
 
 }  // namespace
@@ -78,11 +51,13 @@ HandModel measure_model(const HandPose& tracked, double scale) noexcept {
 
 PosedFlesh pose_flesh(const HandPose& hand, double scale) noexcept {
   PosedFlesh flesh;
+  flesh.palm = hand[Joint::palm].position;
   for (std::size_t i = 0; i < kJointCount; ++i) {
     const Pose& joint = hand.joints[i];
-    flesh.carry[i].topLeftCorner<3, 3>() = scale * joint.rotation.toRotationMatrix();
-    flesh.carry[i].topRightCorner<3, 1>() = joint.position;
-    flesh.carry[i].row(3).setZero();
+    Eigen::Matrix4f& carry = flesh.carry[i];
+    carry.topLeftCorner<3, 3>() = (scale * joint.rotation.toRotationMatrix()).cast<float>();
+    carry.topRightCorner<3, 1>() = (joint.position - flesh.palm).cast<float>();
+    carry.row(3) << 0.0F, 0.0F, 0.0F, 1.0F;
   }
   return flesh;
 }
@@ -112,11 +87,25 @@ ContactRow motion_along(const PosedHand& posed, const FleshPoint& point,
                         const Vec3& direction) noexcept {
   ContactRow row;
   const std::size_t digit = leading_digit(point);
-  const Vec3 position = for_each_arm(posed, point, digit, [&](const Arm& arm) {
-    row.bend[arm.freedom] += arm.share * arm.axis.dot(arm.reach.cross(direction));
-  });
+  Eigen::Vector4f reach = Eigen::Vector4f::Zero();
+  std::array<Eigen::Vector4f, kDigitFreedoms> bent;  // what each freedom turns of it
+  bent.fill(reach);
+  for (std::size_t k = 0; k < point.joints.size() && point.shares[k].w() > 0.0F; ++k) {
+    const Carrier& carrier = kCarriers[point.joints[k]];
+    const Eigen::Vector4f share = posed.flesh.carried(point.joints[k], point.shares[k]);
+    reach += share;
+    if (carrier.digit != digit) continue;
+    for (std::size_t f = 0; f < carrier.freedoms; ++f) bent[f] += share;
+  }
+  for (std::size_t f = 0; f < kDigitFreedoms && bent[f].w() > 0.0F; ++f) {
+    const DigitAxes& axes = posed.axes[digit];
+    const Eigen::Vector4d turned = bent[f].cast<double>();
+    row.bend[static_cast<Eigen::Index>(f)] =
+        direction.cross(axes.axis[f])
+            .dot(turned.head<3>() - turned.w() * (axes.center[f] - posed.flesh.palm));
+  }
   row.wrist.head<3>() = direction;
-  row.wrist.tail<3>() = (position - posed.hand[Joint::palm].position).cross(direction);
+  row.wrist.tail<3>() = reach.head<3>().cast<double>().cross(direction);
   if (digit != kDigitCount) row.digit = digit_at(digit);
   return row;
 }
@@ -139,8 +128,7 @@ const FleshPoint& joint_point(std::size_t joint) noexcept {
   static const auto kPoints = [] {
     std::array<FleshPoint, kJointCount> all;
     for (std::size_t i = 0; i < kJointCount; ++i) {
-      all[i].joints[0] = static_cast<std::uint8_t>(i);
-      all[i].weights[0] = 1.0;
+      all[i].attach(0, i, 1.0, Vec3::Zero());
     }
     return all;
   }();

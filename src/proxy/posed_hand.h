@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "freedoms.h"
 #include "nade/correction.h"
@@ -19,24 +20,29 @@ struct HandModel {
 
 /// Where the joints carry the flesh.
 struct PosedFlesh {
-  /// Rotation times scale, and the origin: in fours, which processors add at once.
-  std::array<Eigen::Matrix4d, kJointCount> carry{};
+  Vec3 palm = Vec3::Zero();
+  /// Rotation times scale, and the origin as seen from `palm`: in four floats, which processors add
+  /// at once.
+  std::array<Eigen::Matrix4f, kJointCount> carry{};
 
   [[nodiscard]] Vec3 origin(std::size_t joint) const noexcept {
-    return carry[joint].col(3).head<3>();
+    return palm + carry[joint].col(3).head<3>().cast<double>();
   }
 
-  [[nodiscard]] Eigen::Vector4d carried(std::size_t joint, const Vec3& local) const noexcept {
-    const Eigen::Matrix4d& by = carry[joint];
-    return by.col(0) * local.x() + by.col(1) * local.y() + by.col(2) * local.z() + by.col(3);
+  /// A joint's share in a point's place, as seen from `palm`; and its weight.
+  [[nodiscard]] Eigen::Vector4f carried(std::size_t joint,
+                                        const Eigen::Vector4f& share) const noexcept {
+    const Eigen::Matrix4f& by = carry[joint];
+    return by.col(0) * share.x() + by.col(1) * share.y() + by.col(2) * share.z() +
+           by.col(3) * share.w();
   }
 
   [[nodiscard]] Vec3 position(const FleshPoint& point) const noexcept {
-    Eigen::Vector4d sum = Eigen::Vector4d::Zero();
-    for (std::size_t k = 0; k < point.joints.size() && point.weights[k] > 0.0; ++k) {
-      sum += point.weights[k] * carried(point.joints[k], point.local[k]);
+    Eigen::Vector4f sum = Eigen::Vector4f::Zero();
+    for (std::size_t k = 0; k < point.joints.size() && point.shares[k].w() > 0.0F; ++k) {
+      sum += carried(point.joints[k], point.shares[k]);
     }
-    return sum.head<3>();
+    return palm + sum.head<3>().cast<double>();
   }
 };
 [[nodiscard]] PosedFlesh pose_flesh(const HandPose& hand, double scale) noexcept;

@@ -1,6 +1,7 @@
 #include "solver.h"
 
 #include <cmath>
+#include <span>
 
 namespace nade {
 namespace {
@@ -27,11 +28,11 @@ class Newton {
  public:
   Newton(const Springs& springs, const StepRange& range, const std::vector<ContactTerm>& terms,
          SolverRoom& room)
-      : springs_(springs), range_(range), terms_(terms), room_(room) {
-    for (std::vector<double>* values :
-         {&room_.gap_m, &room_.change_m, &room_.force, &room_.stiffness}) {
+      : springs_(springs), range_(range), terms_(terms), room_(room), hessian_(springs.stiffness) {
+    for (std::vector<double>* values : {&room_.gap_m, &room_.change_m, &room_.force}) {
       values->resize(terms_.size());
     }
+    room_.stiffness.assign(terms_.size(), 0.0);
   }
 
   HandFreedoms run(HandFreedoms step) {
@@ -53,23 +54,25 @@ class Newton {
 
  private:
   HandFreedoms newton_direction(const HandFreedoms& step) {
-    ArrowMatrix hessian = springs_.stiffness;
     slope_ = springs_.stiffness.times(step) - springs_.force;
     const HandFreedoms over = beyond(range_, step);
     HandFreedoms down = -slope_ - kWallStiffness * over;
-    hessian.add_diagonal(kWallStiffness * (over.array() != 0.0).cast<double>().matrix());
+    const HandFreedoms walls = kWallStiffness * (over.array() != 0.0).cast<double>().matrix();
+    hessian_.add_diagonal(walls - walls_);
+    walls_ = walls;
     for (std::size_t i = 0; i < terms_.size(); ++i) {
       const ContactTerm& term = terms_[i];
       const double force = room_.force[i] = term.force_at(room_.gap_m[i]);
-      const double stiffness = room_.stiffness[i] = term.stiffness_at(room_.gap_m[i]);
-      if (stiffness != 0.0) hessian.add(term.row, stiffness);
+      const double more = term.stiffness_at(room_.gap_m[i]) - room_.stiffness[i];
+      if (more != 0.0) hessian_.add(term.row, more);
+      room_.stiffness[i] += more;
       if (force == 0.0) continue;
       down.head<6>() += force * term.row.wrist;
       if (term.row.digit) {
         down.segment<4>(first_freedom(index_of(*term.row.digit))) += force * term.row.bend;
       }
     }
-    return hessian.solve(down);
+    return hessian_.solve(down);
   }
 
   /// How far along a direction the cost is least.
@@ -120,9 +123,11 @@ class Newton {
 
   const Springs& springs_;
   const StepRange& range_;
-  const std::vector<ContactTerm>& terms_;
+  std::span<const ContactTerm> terms_;
   SolverRoom& room_;
   HandFreedoms slope_ = HandFreedoms::Zero();  ///< of the springs
+  ArrowMatrix hessian_;                        ///< with the terms and walls that acted last
+  HandFreedoms walls_ = HandFreedoms::Zero();
 };
 
 }  // namespace
