@@ -83,6 +83,10 @@ struct CorrectedHand {
 
 /// Corrects one hand, frame by frame. Keep one for each hand; it is the only thing with memory. One
 /// that was moved from can only be assigned to.
+///
+/// Threads: a corrector is used by one at a time. Any number of correctors may run at once, also on
+/// objects, surfaces and meshes that they share, while none of these is placed anew or refitted.
+/// Only the assert handler is global.
 class HandCorrector {
  public:
   /// `options` as `check_options` takes them.
