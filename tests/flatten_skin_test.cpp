@@ -28,17 +28,22 @@ struct Skin {
   std::vector<Vec3f> normals;
 };
 
-Skin flattened(const HandMesh& mesh, const HandPose& hand, const Object& object,
-               double give_m = 0.0) {
+Skin flattened(const HandMesh& mesh, SkinFlattener& flattener, const HandPose& hand,
+               const Object& object, double give_m = 0.0) {
   const double scale = hand_scale(mesh, hand);
   Skin skin;
   skin.posed.resize(mesh.vertices.size());
   skin.normals.resize(mesh.vertices.size());
   pose_skin(mesh, hand, scale, skin.posed, skin.normals);
   skin.flattened.resize(mesh.vertices.size());
-  SkinFlattener flattener(mesh);
   flattener.flatten(object, hand, scale, give_m, skin.posed, skin.flattened, skin.normals);
   return skin;
+}
+
+Skin flattened(const HandMesh& mesh, const HandPose& hand, const Object& object,
+               double give_m = 0.0) {
+  SkinFlattener flattener(mesh);
+  return flattened(mesh, flattener, hand, object, give_m);
 }
 
 double lowest(const std::vector<Vec3f>& skin, const Object& object) {
@@ -58,22 +63,23 @@ class FlattenSkin : public testing::Test {
     if (!mesh_) GTEST_SKIP() << "no generic hand";
   }
 
-  /// The bind pose, palm down, the palm's skin `depth_m` below y = 0.
-  [[nodiscard]] HandPose at_depth(double depth_m) const {
+  /// The bind pose, palm down, the palm's skin `depth_m` below y = 0; `size` times as large.
+  [[nodiscard]] HandPose at_depth(double depth_m, double size = 1.0) const {
     const Quat turn = mesh_->bind[Joint::palm].rotation.conjugate();
-    const Vec3 to(0.0, generic_skin_depths()[Part::palm] - depth_m, 0.0);
-    return test::placed_hand(mesh_->bind, to, turn);
+    const Vec3 to(0.0, size * generic_skin_depths()[Part::palm] - depth_m, 0.0);
+    HandPose hand = mesh_->bind;
+    for (Pose& joint : hand.joints) joint.position *= size;
+    return test::placed_hand(hand, to, turn);
   }
 
   /// The hand that is drawn after it has come down so deep.
-  [[nodiscard]] HandPose pressed(double depth_m, const Object& object) const {
+  [[nodiscard]] HandPose pressed(double depth_m, const Object& object, double size = 1.0) const {
     HandCorrector corrector(test::settling());
     HandPose drawn;
     for (int i = 0; i <= 100; ++i) {
-      const double share = std::min(1.0, i / 80.0);
-      drawn =
-          corrector.update(at_depth(share * (0.05 + depth_m) - 0.05), object, i * test::kFrame_ns)
-              .pose;
+      const double down = std::min(1.0, i / 80.0);
+      const HandPose tracked = at_depth(down * (0.05 + depth_m) - 0.05, size);
+      drawn = corrector.update(tracked, object, i * test::kFrame_ns).pose;
     }
     return drawn;
   }
@@ -120,16 +126,17 @@ TEST_F(FlattenSkin, NothingIsOnTheOtherSideOfAThinBoard) {
   for (const float thick_m : {0.001F, 0.003F, 0.008F}) {
     const auto board = test::block({0.3F, 0.5F * thick_m, 0.3F});
     const Object object(*board);
-    const Skin skin = flattened(*mesh_, pressed(0.015, object), object);
-    float deepest = 0.0F;
-    float lowest_y = 1.0F;
-    for (std::size_t i = 0; i < skin.posed.size(); ++i) {
-      deepest = std::max(deepest, -skin.posed[i].y());
-      lowest_y = std::min(lowest_y, skin.flattened[i].y());
+    for (const double size : {0.6, 1.0, 1.15}) {
+      const Skin skin = flattened(*mesh_, pressed(0.015, object, size), object);
+      const auto lowest_y = [](const std::vector<Vec3f>& vertices) {
+        float lowest = 1.0F;
+        for (const Vec3f& vertex : vertices) lowest = std::min(lowest, vertex.y());
+        return lowest;
+      };
+      EXPECT_LT(lowest_y(skin.posed), -0.003F);
+      EXPECT_GT(lowest_y(skin.flattened), 0.00015F) << thick_m << " m, size " << size;
+      expect_whole(skin);
     }
-    EXPECT_GT(deepest, 0.004F);
-    EXPECT_GT(lowest_y, 0.00015F) << thick_m;
-    expect_whole(skin);
   }
 }
 
@@ -169,6 +176,7 @@ TEST_F(FlattenSkin, WhatIsFarFromTheSurfaceStaysBitForBit) {
 /// As it comes down and strokes along, flattened skin moves hardly faster than posed skin.
 TEST_F(FlattenSkin, ItFollowsAStrokeWithoutJumps) {
   HandCorrector corrector(test::settling());
+  SkinFlattener flattener(*mesh_);
   std::optional<Skin> last;
   float farthest = 0.0F;
   for (int i = 0; i < 200; ++i) {
@@ -176,7 +184,7 @@ TEST_F(FlattenSkin, ItFollowsAStrokeWithoutJumps) {
     const Pose along{{0.1 * std::clamp((i - 80) / 100.0, 0.0, 1.0), 0.0, 0.0}, Quat::Identity()};
     const HandPose tracked = moved(at_depth(0.07 * down - 0.05), along);
     const HandPose& drawn = corrector.update(tracked, test::ball(), i * test::kFrame_ns).pose;
-    Skin skin = flattened(*mesh_, drawn, test::ball());
+    Skin skin = flattened(*mesh_, flattener, drawn, test::ball());
     for (std::size_t v = 0; last && v < skin.posed.size(); ++v) {
       farthest = std::max(farthest, (skin.flattened[v] - last->flattened[v]).norm() -
                                         (skin.posed[v] - last->posed[v]).norm());
@@ -188,10 +196,11 @@ TEST_F(FlattenSkin, ItFollowsAStrokeWithoutJumps) {
 
 /// Even one that is not corrected: where skin is too deep to be flattened, that fades.
 TEST_F(FlattenSkin, AHandThatSinksInIsLetGoSmoothly) {
+  SkinFlattener flattener(*mesh_);
   std::optional<Skin> last;
   float farthest = 0.0F;
   for (double depth_m = -0.01; depth_m < 0.03; depth_m += 0.0002) {
-    Skin skin = flattened(*mesh_, at_depth(depth_m), test::ball());
+    Skin skin = flattened(*mesh_, flattener, at_depth(depth_m), test::ball());
     for (std::size_t v = 0; last && v < skin.posed.size(); ++v) {
       farthest = std::max(farthest, (skin.flattened[v] - last->flattened[v]).norm());
     }

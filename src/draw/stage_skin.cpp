@@ -42,7 +42,8 @@ void SkinPoser::pose(const HandPose& hand, double scale) {
 
 void SkinPoser::flatten(SkinFlattener& flattener, const Object& object, const HandPose& hand,
                         double scale, double give_m) {
-  flattener.flatten(object, hand, scale, give_m, positions_, positions_, normals_);
+  flattener.flatten(object, hand, scale, give_m, positions_, positions_, {});
+  compute_normals();
 }
 
 void SkinPoser::compute_normals() {

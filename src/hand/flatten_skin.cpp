@@ -23,6 +23,10 @@ constexpr double kBorder_m = 0.002;
 constexpr double kDeep_m = 0.002;
 constexpr double kTooDeep_m = 0.006;
 constexpr double kWidestPiece_m = 0.01;
+/// How much more than its normal the palmar axis counts for flesh that is not thin.
+constexpr double kAlongAxis = 3.0;
+constexpr double kThin_m = 0.0005;
+constexpr double kThick_m = 0.002;
 /// Pieces with their middles nearer than this have a say in where a vertex goes.
 constexpr double kShareReach_m = 0.016;
 /// Ways out begin to count from this height of a piece's inner point on, and fade so far before
@@ -49,6 +53,16 @@ std::size_t limb_of(std::size_t bone) {
     if (bone > index_of(joints.metacarpal) && bone <= index_of(joints.tip)) return d + 1;
   }
   return 0;
+}
+
+/// The palmar axis of a bone; of the thumb's, if it is nearer to `normal`, the palm's. Flesh is
+/// sunk along it.
+Vec3 palmar_axis_near(const HandMesh& mesh, std::uint8_t bone, const Vec3& normal) {
+  const Vec3 own = mesh.bind.joints[bone].rotation * -Vec3::UnitY();
+  const Joint joint = joint_at(bone);
+  if (joint != Joint::thumb_metacarpal && joint != Joint::thumb_proximal) return own;
+  const Vec3 palm = mesh.bind[Joint::middle_metacarpal].rotation * -Vec3::UnitY();
+  return palm.dot(normal) > own.dot(normal) ? palm : own;
 }
 
 /// Splits skin so that none is farther than `kWidestPiece_m` from the first of its piece.
@@ -141,6 +155,10 @@ void SkinFlattener::cut(const HandMesh& mesh) {
       }
       const Pose& bind = mesh.bind.joints[piece.bone];
       piece.skin_local = bind.inverse().apply(middle);
+      // Deep flesh goes in along the palmar axis also where its skin lies aslant.
+      out.normalize();
+      out += kAlongAxis * smoothstep(kThin_m, kThick_m, piece.flesh_m) *
+             palmar_axis_near(mesh, piece.bone, out);
       const double length = out.norm();
       if (length > 0.0) piece.inward_local = bind.rotation.conjugate() * (-out / length);
       piece.vertices = std::move(vertices);
