@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hand/step.h"
 #include "ramps.h"
-#include "step.h"
 
 namespace nade {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "contact_finder.h"
-#include "posed_hand.h"
+#include "hand/posed_hand.h"
 #include "solver.h"
 #include "tuning.h"
 

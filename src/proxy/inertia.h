@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "posed_hand.h"
+#include "hand/posed_hand.h"
 #include "state.h"
 
 namespace nade {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "hand/step.h"
 #include "nade/correction.h"
 #include "ramps.h"
-#include "step.h"
 
 namespace nade {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "scaled_surface.h"
+#include "surface/scaled_surface.h"
 
 namespace nade {
 

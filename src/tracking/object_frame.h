@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "proxy/proxy_hand.h"
-#include "proxy/scaled_surface.h"
 #include "proxy/state.h"
+#include "surface/scaled_surface.h"
 
 namespace nade {
 
