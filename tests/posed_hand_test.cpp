@@ -1,4 +1,4 @@
-#include "proxy/posed_hand.h"
+#include "hand/posed_hand.h"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 #include <array>
 #include <random>
 
+#include "hand/step.h"
 #include "nade/flesh.h"
 #include "proxy/arrow_matrix.h"
 #include "proxy/inertia.h"
-#include "proxy/step.h"
 #include "support/sample_hand.h"
 
 // The derivatives that the solver is built on, against central differences, and its matrix against

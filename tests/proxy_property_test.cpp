@@ -3,10 +3,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "nade/corrector.h"
 #include "nade/mesh.h"
+#include "support/allocation_counter.h"
 #include "support/hand_checks.h"
 #include "support/meshes.h"
 #include "support/random.h"
@@ -163,16 +165,86 @@ void expect_properties(test::Random& random) {
   EXPECT_TRUE(test::same_bits(away, corrector.update(away, here, time_ns + 2'000'000'000).pose));
 }
 
-TEST(ProxyProperties, HoldForRandomHandsSurfacesAndMotions) {
+/// A tracker at its worst: it jumps by a few centimetres or metres, misses frames, and its clock
+/// stands still or goes back; now and then the object jumps, grows, or is another.
+void expect_calm_in_a_storm(test::Random& random) {
+  const TestSurface one = random_surface(random);
+  const TestSurface two = random_surface(random);
+  const HandPose hand = random_hand(random);
+  HandCorrector corrector;
+  HandCorrector again;
+  Placement placement;
+  std::int64_t time_ns = 0;
+  Vec3 palm = random.point({-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1});
+  for (int i = 0; i < kFramesPerTrial; ++i) {
+    const bool calm = random.below(8) != 0;
+    time_ns += calm ? 11'000'000 : static_cast<std::int64_t>(random.below(2'000)) * 1'000'000;
+    if (random.below(40) == 0) time_ns -= 30'000'000;
+    palm += 0.003 * random.direction();
+    if (random.below(30) == 0) palm += random.uniform(0.0, 0.3) * random.direction();
+    if (random.below(50) == 0) placement.pose.position += 0.1 * random.direction();
+    if (random.below(50) == 0) placement.scale = random.uniform(0.0, 2.0);
+    Vec3 seen = palm;
+    if (!calm) seen += std::pow(10.0, random.uniform(-3.0, 3.0)) * random.direction();
+    HandPose tracked =
+        test::placed_hand(hand, seen, calm ? Quat(1.0, 0.0, 0.0, 0.0) : random.rotation());
+    if (random.below(60) == 0) tracked.joints[random.below(kJointCount)].position.x() = NAN;
+    const Object object(random.below(30) == 0 ? *two.surface : *one.surface, placement);
+    SCOPED_TRACE(testing::Message() << one.name << ", " << two.name << ", frame " << i);
+    const CorrectedHand* drawn = nullptr;
+    ASSERT_EQ(test::allocations_of([&] { drawn = &corrector.update(tracked, object, time_ns); }),
+              0U);
+    const HandPose& second = again.update(tracked, object, time_ns).pose;
+    if (drawn->status == HandStatus::untracked) continue;
+    ASSERT_TRUE(test::all_finite(drawn->pose));
+    ASSERT_TRUE(test::same_bits(drawn->pose, second));
+  }
+}
+
+/// On a table, where nothing lets it go, the drawn hand goes about as fast as the tracked one.
+void expect_speed_bound(test::Random& random) {
+  constexpr double kFrame_s = 0.011;
+  constexpr double kFaster = 1.5;
+  constexpr double kByItself_mps = 0.2;  // home, or what comes back of a shift
+  const PlaneSurface table;
+  const HandPose hand = random_hand(random);
+  const Quat turn(Eigen::AngleAxisd(random.uniform(-0.6, 0.6), random.direction()));
+  const double speed = random.uniform(0.005, 0.05);
+  const double deep_m = random.uniform(0.01, 0.08);
+  HandCorrector corrector;
+  std::optional<HandPose> last;
+  HandPose last_drawn;
+  for (int i = 0; i < kFramesPerTrial; ++i) {
+    const Vec3 palm(0.2 * std::sin(speed * i), 0.08 - deep_m * std::sin(0.7 * speed * i),
+                    0.1 * std::cos(speed * i));
+    const HandPose tracked = test::placed_hand(hand, palm, turn);
+    const HandPose drawn = corrector.update(tracked, Object(table), i * 11'000'000LL).pose;
+    if (last) {
+      const double most_m = kFaster * largest_motion(*last, tracked) + kByItself_mps * kFrame_s;
+      ASSERT_LT(largest_motion(last_drawn, drawn), most_m) << "frame " << i;
+    }
+    last = tracked;
+    last_drawn = drawn;
+  }
+}
+
+template <class Trial>
+void run_trials(Trial trial) {
   test::Random random;
   SCOPED_TRACE(testing::Message() << "NADE_TEST_SEED=" << test::seed());
   const int trials = frames_wanted() / kFramesPerTrial;
-  for (int trial = 0; trial < trials; ++trial) {
-    SCOPED_TRACE(testing::Message() << "trial " << trial);
-    expect_properties(random);
-    if (HasFatalFailure()) return;
+  for (int i = 0; i < trials; ++i) {
+    SCOPED_TRACE(testing::Message() << "trial " << i);
+    trial(random);
+    if (testing::Test::HasFatalFailure()) return;
   }
 }
+
+TEST(ProxyProperties, NothingOfAStormIsDrawnAsNoNumber) { run_trials(expect_calm_in_a_storm); }
+
+TEST(ProxyProperties, TheDrawnHandGoesNoFasterThanThePerson) { run_trials(expect_speed_bound); }
+
+TEST(ProxyProperties, HoldForRandomHandsSurfacesAndMotions) { run_trials(expect_properties); }
 
 }  // namespace
 }  // namespace nade

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "freedoms.h"
+#include "hand/freedoms.h"
 
 namespace nade {
 

@@ -14,19 +14,22 @@ constexpr double kSurfaceStiffness = 1.2e7;
 constexpr double kStretch = 1.3;
 /// While all palmar skin is higher than this, nothing is drawn to the surface.
 constexpr double kNotPressed_m = -0.003;
-/// Adhesion fades over this way before its reach.
+/// Adhesion begins with a patch that is half as far out of the surface as it is in where it is
+/// whole, and fades over this way before its reach.
+constexpr double kFromShare = -0.5;
 constexpr double kFade_m = 0.01;
 /// Skin is looked for that comes down in the next frames: so far off, and by the hand's speed.
 constexpr double kComing_m = 0.002;
 constexpr double kComing_s = 0.03;
+/// How firmly skin is braked, s/m^2.
+constexpr double kLandingDamping = 500.0;
 /// A landing term is needed from this share of the most that a frame may bring skin down.
 constexpr double kLandingShare = 0.5;
 
-// What holds a pad back from where the person has it by so much, and surely, is stepped over: its
-// side counts as sloping up to so steep a ramp, where it is steep and no higher than so many times
-// that way.
-constexpr double kHeld_m = 0.006;
-constexpr double kSurelyHeld_m = 0.024;
+// What holds a pad back from where the person has it by this share of `step_up_m`, and surely by
+// all of it, is stepped over: its side counts as sloping up to so steep a ramp, where it is steep
+// and no higher than so many times that way.
+constexpr double kHeldShare = 0.25;
 constexpr double kRamp = 1.0;   // rise over run
 constexpr double kSteep = 0.3;  // cosines of the side's normal with the way up
 constexpr double kNotSteep = 0.7;
@@ -132,10 +135,11 @@ class Finder {
     if (steep == 0.0) return side;
     const Vec3 back = along_surface(plane.normal, up).normalized();
     const double held_m = back.dot(middle - search_.tracked.position(pad.middle));
-    if (held_m <= kHeld_m) return side;
+    if (held_m <= kHeldShare * search_.tuning.step_up_m) return side;
     const Vec3 above = middle + kHighestStep * held_m * up + kBefore_m * back;
     if (search_.object.first_hit({above, -back, kRoom_m})) return side;
-    side.ramp = steep * smoothstep(kHeld_m, kSurelyHeld_m, held_m);
+    side.ramp =
+        steep * smoothstep(kHeldShare * search_.tuning.step_up_m, search_.tuning.step_up_m, held_m);
     side.normal = (plane.normal + side.ramp / kRamp * up).normalized();
     return side;
   }
@@ -180,7 +184,7 @@ class Finder {
         0.5 * (std::sqrt(braking_m_ * (braking_m_ + 8.0 * before_m)) - braking_m_);
     if (before_m - lowest.gap_m <= kLandingShare * most_m) return;
     if (ContactTerm* const term = add(ContactKind::landing, point, plane.normal, lowest.gap_m)) {
-      term->stiffness = search_.tuning.landing_damping / search_.seconds;
+      term->stiffness = kLandingDamping / search_.seconds;
       term->edge_m = before_m - most_m;
     }
   }
@@ -197,8 +201,9 @@ class Finder {
       found_.palm.depth_m = std::max(found_.palm.depth_m, depth_m);
       found_.palm.normal += near * patch.area_m2 * plane.normal;
     }
-    const double share = weight * pressed_ * near *
-                         smoothstep(tuning.adhesion_from_m, tuning.adhesion_full_m, depth_m);
+    const double share =
+        weight * pressed_ * near *
+        smoothstep(kFromShare * tuning.adhesion_full_m, tuning.adhesion_full_m, depth_m);
     if (share == 0.0) return;
     const double stiffness = share * tuning.adhesion * patch.area_m2;
     found_.pull += stiffness * plane.normal;

@@ -4,10 +4,10 @@
 #include <limits>
 #include <optional>
 
+#include "hand/posed_hand.h"
 #include "nade/flesh.h"
-#include "posed_hand.h"
-#include "scaled_surface.h"
 #include "state.h"
+#include "surface/scaled_surface.h"
 #include "tuning.h"
 
 namespace nade {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "freedoms.h"
+#include "hand/freedoms.h"
 
 namespace nade {
 

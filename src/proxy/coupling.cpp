@@ -3,27 +3,31 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hand/step.h"
 #include "ramps.h"
-#include "step.h"
 
 namespace nade {
 namespace {
 
-// The seat counts from the first of these depths of the palm on, and is whole at the second; and
-// likewise with the angle between the palm and the surface.
-constexpr double kSeatFrom_m = 0.01;
-constexpr double kSeatFull_m = 0.02;
+/// Anatomy: 25 degrees; farther back a knuckle looks broken.
+constexpr double kMostBentBack_rad = 0.44;
+/// The seat counts from where the palm is surely pressed, and is whole so many times as deep.
+constexpr double kSeatFull = 2.0;
+/// A finger goes aside so much harder than it bends: it does not split from the others around a
+/// leg.
+constexpr double kAsideHarder = 2.0;
+/// And likewise with the angle between the palm and the surface: 30 to 10 degrees.
 constexpr double kSeatFrom_rad = 0.52;
 constexpr double kSeatFull_rad = 0.17;
 
 }  // namespace
 
-void limit_back_bend(const ProxyTuning& tuning, HandModel& model) noexcept {
+void limit_back_bend(HandModel& model) noexcept {
   for (std::size_t d = 0; d < kDigitCount; ++d) {
     if (digit_at(d) == Digit::thumb) continue;
     const double bent_rad = freedoms_of(model.chains[d].angles)[1];
     double& low = model.ranges[d].low[1];
-    low = std::max(low, std::min(0.0, -tuning.most_bent_back_rad - bent_rad));
+    low = std::max(low, std::min(0.0, -kMostBentBack_rad - bent_rad));
   }
 }
 
@@ -35,10 +39,10 @@ void add_coupling(const ProxyTuning& tuning, const Correction& now, const Vec3& 
   for (std::size_t d = 0; d < kDigitCount; ++d) {
     auto digit = stiffness.segment<4>(first_freedom(d));
     if (digit_at(d) == Digit::thumb) {
-      digit.setConstant(tuning.thumb_stiffness);
+      digit.setConstant(tuning.knuckle_stiffness);
     } else {
-      digit << tuning.abduction_stiffness, tuning.knuckle_stiffness, tuning.finger_stiffness,
-          tuning.finger_stiffness;
+      digit << kAsideHarder * tuning.finger_stiffness, tuning.knuckle_stiffness,
+          tuning.finger_stiffness, tuning.finger_stiffness;
     }
   }
   HandFreedoms away = step_between({}, now);
@@ -51,9 +55,10 @@ void add_seat(const ProxyTuning& tuning, const Correction& now, const Pose& trac
   if (palm.normal.isZero()) return;
   const Vec3 normal = palm.normal.normalized();
   const double facing = (tracked_palm.rotation * Vec3::UnitY()).dot(normal);
-  const double stiffness = tuning.seat_stiffness *
-                           smoothstep(kSeatFrom_m, kSeatFull_m, palm.depth_m) *
-                           smoothstep(std::cos(kSeatFrom_rad), std::cos(kSeatFull_rad), facing);
+  const double stiffness =
+      tuning.seat_stiffness *
+      smoothstep(tuning.pressed_m, kSeatFull * tuning.pressed_m, palm.depth_m) *
+      smoothstep(std::cos(kSeatFrom_rad), std::cos(kSeatFull_rad), facing);
   if (stiffness == 0.0) return;
   const Eigen::Matrix3d tilt =
       stiffness * (Eigen::Matrix3d::Identity() - normal * normal.transpose());

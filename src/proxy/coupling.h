@@ -1,7 +1,7 @@
 #pragma once
 
 #include "contact_finder.h"
-#include "posed_hand.h"
+#include "hand/posed_hand.h"
 #include "solver.h"
 #include "tuning.h"
 
@@ -9,9 +9,9 @@ namespace nade {
 
 // What ties the drawn hand to the tracked pose.
 
-/// The range of motion, with a finger's base bent back no farther than `most_bent_back_rad`, or
-/// than the person's own.
-void limit_back_bend(const ProxyTuning& tuning, HandModel& model) noexcept;
+/// The range of motion, with a finger's base bent back no farther than 25 degrees, or than the
+/// person's own.
+void limit_back_bend(HandModel& model) noexcept;
 
 /// Springs from the correction `now` to none, `firmness` times as stiff as tuned, but for `lag`, by
 /// which friction holds back the palm.

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "scaled_surface.h"
 #include "state.h"
+#include "surface/scaled_surface.h"
 
 namespace nade {
 

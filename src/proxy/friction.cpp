@@ -5,12 +5,6 @@
 #include "ramps.h"
 
 namespace nade {
-namespace {
-
-/// A hand that friction holds back or lets slip takes about this time for it.
-constexpr double kLagTime_s = 0.2;
-
-}  // namespace
 
 void remember_stroke(const Vec3& stroked, const VisibleFriction& friction,
                      SurfaceTouch& touch) noexcept {
@@ -34,8 +28,8 @@ void forget_stroke(SurfaceTouch& touch) noexcept {
   touch.slips = false;
 }
 
-Vec3 follow_lag(double seconds, SurfaceTouch& touch) noexcept {
-  const Vec3 change = followed(seconds, kLagTime_s) * (touch.lag - touch.drawn_lag);
+Vec3 follow_lag(double seconds, double constant_s, SurfaceTouch& touch) noexcept {
+  const Vec3 change = followed(seconds, constant_s) * (touch.lag - touch.drawn_lag);
   touch.drawn_lag += change;
   return change;
 }

@@ -14,7 +14,8 @@ void remember_stroke(const Vec3& stroked, const VisibleFriction& friction,
 /// In the air.
 void forget_stroke(SurfaceTouch& touch) noexcept;
 
-/// Follows what friction holds back; gives by how much the hand moves for it in this frame.
-[[nodiscard]] Vec3 follow_lag(double seconds, SurfaceTouch& touch) noexcept;
+/// Follows what friction holds back with a time constant; gives by how much the hand moves for it
+/// in this frame.
+[[nodiscard]] Vec3 follow_lag(double seconds, double constant_s, SurfaceTouch& touch) noexcept;
 
 }  // namespace nade

@@ -12,24 +12,25 @@ namespace {
 constexpr double kHoldStiffness = 1e6;
 constexpr double kHeldLoosely = 1.05;
 constexpr double kLoose_m = 1e-6;
-/// A hand whose skin is pressed in so deep rests on the object, and surely rests.
-constexpr double kPressedIn_m = 0.01;
-constexpr double kSurelyRests_m = 0.05;
+/// A hand whose skin is pressed in deeper than surely pressed rests on the object; so many times as
+/// deep, it surely does.
+constexpr double kSurelyRests = 5.0;
 
 }  // namespace
 
-JointVectors coasted_joints(const ProxyState& state, const HandPose& tracked, const Vec3& moved,
-                            double seconds, double offset_time_s) noexcept {
+JointVectors coasted_joints(const ProxyTuning& tuning, const ProxyState& state,
+                            const HandPose& tracked, const Vec3& moved, double seconds) noexcept {
   const SettledFrame& last = *state.last;
-  const double kept_s = seconds * std::exp(-seconds / offset_time_s);
+  const double kept_s = seconds * std::exp(-seconds / tuning.offset_time_s);
   const Vec3& normal = state.touch.normal;
-  const double rests = smoothstep(kPressedIn_m, kSurelyRests_m, state.touch.deepest_m);
+  const double rests =
+      smoothstep(tuning.pressed_m, kSurelyRests * tuning.pressed_m, state.touch.deepest_m);
   JointVectors coasted;
   for (std::size_t i = 0; i < kJointCount; ++i) {
     const Vec3 offset = last.drawn.joints[i].position - last.tracked.joints[i].position;
     coasted[i] = tracked.joints[i].position + offset + moved + kept_s * state.offset_velocity[i];
     const Vec3 own = last.drawn.joints[i].position +
-                     seconds * (state.tracked_velocity[i] + state.offset_velocity[i]);
+                     seconds * (state.motion.velocity[i] + state.offset_velocity[i]);
     coasted[i] -= rests * std::max(0.0, normal.dot(coasted[i] - own)) * normal;
   }
   return coasted;

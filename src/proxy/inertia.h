@@ -2,8 +2,9 @@
 
 #include <vector>
 
-#include "posed_hand.h"
+#include "hand/posed_hand.h"
 #include "state.h"
+#include "tuning.h"
 
 namespace nade {
 
@@ -12,9 +13,9 @@ namespace nade {
 /// Where the drawn joints are if each keeps its way from the tracked one, but for `moved`, and the
 /// velocity of that, which fades with `offset_time_s`. A hand that is pressed in rests on the
 /// object: it leaves the surface no sooner than by its own velocity, however the person's goes.
-[[nodiscard]] JointVectors coasted_joints(const ProxyState& state, const HandPose& tracked,
-                                          const Vec3& moved, double seconds,
-                                          double offset_time_s) noexcept;
+[[nodiscard]] JointVectors coasted_joints(const ProxyTuning& tuning, const ProxyState& state,
+                                          const HandPose& tracked, const Vec3& moved,
+                                          double seconds) noexcept;
 
 /// Springs as stiff as that, 1/m^2, from every joint of `posed` to where it would coast to.
 void add_inertia(const JointVectors& coasted, double stiffness, const PosedHand& posed,

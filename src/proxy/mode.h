@@ -2,7 +2,6 @@
 
 #include "contact_finder.h"
 #include "state.h"
-#include "tracking/object_frame.h"
 
 namespace nade {
 
@@ -17,10 +16,10 @@ namespace nade {
 /// Whether a hand that was drawn so goes farther at once than it does by itself.
 [[nodiscard]] bool is_thrown(const ShownBefore& before, const Correction& now) noexcept;
 
-/// A hand that was let go is back after so long; one that an object threw takes longer, because the
-/// person sees no reason for it.
-inline constexpr double kLetGoReturn_s = 0.3;
-inline constexpr double kThrownReturn_s = 0.4;
+/// Times tuning's `return_s`, a hand that was let go is back; one that an object threw takes
+/// longer, because the person sees no reason for it.
+inline constexpr double kLetGoLonger = 1.5;
+inline constexpr double kThrownLonger = 2.0;
 
 /// Such a hand is drawn on its way from one correction to another.
 void start_return(const Correction& from, const Correction& to, double lasts_s,
@@ -28,5 +27,8 @@ void start_return(const Correction& from, const Correction& to, double lasts_s,
 
 /// Takes in a frame of the way back; gives how much of `returning.from` is left, 1 to 0.
 [[nodiscard]] double follow_return(double seconds, ProxyState& state) noexcept;
+
+/// The mode that a frame ends in.
+[[nodiscard]] ProxyMode mode_after(bool touches, bool pushed, const ProxyState& state) noexcept;
 
 }  // namespace nade

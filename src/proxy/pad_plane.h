@@ -6,8 +6,8 @@
 #include <optional>
 #include <span>
 
-#include "posed_hand.h"
-#include "scaled_surface.h"
+#include "hand/posed_hand.h"
+#include "surface/scaled_surface.h"
 
 namespace nade {
 

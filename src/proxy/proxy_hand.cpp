@@ -7,19 +7,18 @@
 #include "coupling.h"
 #include "deformation.h"
 #include "friction.h"
+#include "hand/posed_hand.h"
+#include "hand/step.h"
 #include "inertia.h"
 #include "mode.h"
 #include "nade/assert.h"
-#include "posed_hand.h"
 #include "ramps.h"
-#include "step.h"
-#include "tracking/clock.h"
-#include "tracking/glitch.h"
-#include "tracking/object_frame.h"
 #include "way_out.h"
 
 namespace nade {
 namespace {
+
+// Behaviour's numbers are in tuning.h. Here are fractions of them, and numerics.
 
 /// Skin farther than this from pushing, and than this share of what the hand has moved, does not
 /// come to it in the frame.
@@ -27,8 +26,6 @@ constexpr double kReach_m = 0.001;
 constexpr double kReachOfMotion = 0.5;
 /// Of a hand that is found anew.
 constexpr double kFirstReach_m = 0.02;
-/// How soft the object is, is smoothed over this time.
-constexpr double kSoftnessTime_s = 0.2;
 /// One that was missing for long is found anew, unless it presses on: it was in the object, has not
 /// come out, and is no farther from there than this.
 constexpr double kPressesOn_m = 0.08;
@@ -47,44 +44,37 @@ constexpr double kFirstTurn_rad = 0.3;
 constexpr double kFirstShift_m = 0.05;
 /// In the air, a correction smaller than this is over.
 constexpr double kReleased_m = 1e-4;
-/// A part that is pressed in touches no farther off than this.
-constexpr double kTouchReach_m = 0.05;
-constexpr double kLongestMotion_mps = 1.0;
-/// A hand that nothing has held for so long is surely in the air. There it is coupled more firmly
-/// by this factor, and comes home in about this time by up to this speed, or the person's and a
-/// little.
-constexpr double kInAir_s = 0.1;
+/// A hand that nothing has held for this share of `return_s` is surely in the air. There it is
+/// coupled more firmly, and comes home by up to so many times the speed of one at rest, or the
+/// person's and a little.
+constexpr double kInAirShare = 0.5;
 constexpr double kFirmerInAir = 4.0;
-constexpr double kHome_s = 0.2;
-constexpr double kHomeMost_mps = 0.05;
+constexpr double kHomeFaster = 5.0;
 constexpr double kFasterInAir = 1.4;
-/// A shift along the surface that is shorter is not noticed: 30 mm are not (docs/method.md). What
-/// is beyond comes back in about this time, by up to this speed.
-constexpr double kUnnoticed_m = 0.02;
-constexpr double kCatchUp_s = 0.3;
-constexpr double kCatchUpMost_mps = 0.1;
-
-/// Whether the person has pressed a part in where the drawn one is not far off.
-bool is_near(const PartTouch& part) { return part.depth_m > 0.0 && part.gap_m < kTouchReach_m; }
+/// On the surface, what is noticed of a shift comes back in so many times `return_s`, by up to so
+/// many times the speed of a hand at rest.
+constexpr double kCatchUpLonger = 1.5;
+constexpr double kCatchUpFaster = 10.0;
 
 }  // namespace
 
 /// One frame's work, in the object's frame.
 class ProxyFrame {
  public:
-  ProxyFrame(const SeenHand& seen, const HandFlesh& flesh, const ProxyTuning& tuning, double scale,
-             const ScaledSurface& object, double seconds, const SettleOptions& options,
-             ProxyState& state)
+  ProxyFrame(const SeenHand& seen, const std::optional<ShownBefore>& before, const HandFlesh& flesh,
+             const ProxyTuning& tuning, double scale, const ScaledSurface& object, double seconds,
+             const SettleOptions& options, ProxyState& state)
       : tuning_(tuning),
         object_(object),
         seen_(seen),
+        before_(before),
         options_(options),
         state_(state),
         model_(measure_model(seen.tracked, scale)),
         search_{flesh, object, tuning, pose_flesh(seen.tracked, scale), {}, scale},
         since_last_s_(seconds),
-        seconds_(frame_seconds(seconds, state)) {
-    limit_back_bend(tuning, model_);
+        seconds_(frame_seconds(seconds, state.clock)) {
+    limit_back_bend(model_);
   }
 
   ProxyResult run() {
@@ -114,7 +104,7 @@ class ProxyFrame {
   [[nodiscard]] StepRange range_at(int round) const;
   void take_step(const PosedHand& posed, int round);
   [[nodiscard]] bool is_pushed(const HandFreedoms& step) const;
-  [[nodiscard]] bool hovers() const;
+  [[nodiscard]] bool is_near(const PartTouch& part) const;
   void remember_touch();
   void remember_frame(const HandPose& drawn);
   [[nodiscard]] bool is_displaced() const;
@@ -124,6 +114,7 @@ class ProxyFrame {
   const ProxyTuning& tuning_;
   const ScaledSurface& object_;
   const SeenHand& seen_;
+  const std::optional<ShownBefore>& before_;
   const SettleOptions& options_;
   ProxyState& state_;
   HandModel model_;
@@ -156,10 +147,10 @@ void ProxyFrame::follow_object() {
 /// How the tracked hand moves against it.
 void ProxyFrame::follow_person() {
   if (!state_.last) {
-    state_.before_jumps = {};  // from who knows when
+    state_.motion.jumps_from = {};  // from who knows when
     return;
   }
-  jumped_ = since_last_s_ <= kMissing_s && follow_jumps(model_.tracked, seconds_, state_);
+  jumped_ = since_last_s_ <= kMissing_s && has_jumped(model_.tracked, seconds_, state_);
   motion_m_ = largest_motion(state_.last->tracked, model_.tracked);
   state_.way_m += motion_m_;
 }
@@ -194,8 +185,8 @@ void ProxyFrame::start() {
   search_.before = pose_flesh(state_.last->drawn, model_.scale);
   search_.sink_m = find_sink();
   if (jumped_) state_.offset_velocity.fill(Vec3::Zero());
-  lag_ = follow_lag(seconds_, state_.touch);
-  coasted_ = coasted_joints(state_, model_.tracked, lag_, seconds_, tuning_.offset_time_s);
+  lag_ = follow_lag(seconds_, tuning_.return_s, state_.touch);
+  coasted_ = coasted_joints(tuning_, state_, model_.tracked, lag_, seconds_);
   correction_ = after_step(state_.last->correction, HandFreedoms::Zero(), model_.ranges);
 }
 
@@ -219,7 +210,7 @@ void ProxyFrame::start_anew() {
 double ProxyFrame::find_sink() {
   SurfaceTouch& touch = state_.touch;
   const double share =
-      state_.mode == ProxyMode::contact ? followed(seconds_, kSoftnessTime_s) : 1.0;
+      state_.mode == ProxyMode::contact ? followed(seconds_, tuning_.return_s) : 1.0;
   touch.softness_m += share * (options_.softness_m - touch.softness_m);
   touch.softness_depth_m += share * (options_.softness_depth_m - touch.softness_depth_m);
   return touch.softness_m * followed(touch.height_m, touch.softness_depth_m);
@@ -245,8 +236,9 @@ void ProxyFrame::settle() {
 void ProxyFrame::look_along() {
   normal_ = found_.pull.normalized();
   const Vec3 along = along_surface(state_.last->correction.palm.shift, normal_);
-  const Vec3 noticed = along - shortened(along, kUnnoticed_m);
-  catch_up_ = -shortened(followed(seconds_, kCatchUp_s) * noticed, kCatchUpMost_mps * seconds_);
+  const Vec3 noticed = along - shortened(along, tuning_.unnoticed_m);
+  catch_up_ = -shortened(followed(seconds_, kCatchUpLonger * tuning_.return_s) * noticed,
+                         kCatchUpFaster * tuning_.rest_speed_mps * seconds_);
 }
 
 void ProxyFrame::take_step(const PosedHand& posed, int round) {
@@ -269,7 +261,7 @@ void ProxyFrame::take_step(const PosedHand& posed, int round) {
 
 /// 0 for a hand that something holds, to 1 in the air.
 double ProxyFrame::in_air() const {
-  return found_anew_ ? 0.0 : smoothstep(0.0, kInAir_s, state_.touch.air_s);
+  return found_anew_ ? 0.0 : smoothstep(0.0, kInAirShare * tuning_.return_s, state_.touch.air_s);
 }
 
 /// How far a joint goes in the frame at the most.
@@ -279,7 +271,8 @@ double ProxyFrame::farthest_way() const {
   const double air = in_air();
   if (air == 0.0) return held_m;
   const double away_m = largest_motion(state_.last->tracked, state_.last->drawn);
-  const double home_m = seconds_ * std::min(kHomeMost_mps, away_m / kHome_s);
+  const double home_m =
+      seconds_ * std::min(kHomeFaster * tuning_.rest_speed_mps, away_m / tuning_.return_s);
   return held_m + air * (std::max(kFasterInAir * motion_m_, home_m) - held_m);
 }
 
@@ -318,9 +311,9 @@ bool ProxyFrame::is_pushed(const HandFreedoms& step) const {
          });
 }
 
-/// Whether the person is in the object near where the drawn hand is.
-bool ProxyFrame::hovers() const {
-  return std::any_of(found_.parts.begin(), found_.parts.end(), is_near);
+/// Whether the person has pressed a part in where the drawn one is not far off.
+bool ProxyFrame::is_near(const PartTouch& part) const {
+  return part.depth_m > 0.0 && part.gap_m < tuning_.adhesion_reach_m;
 }
 
 void ProxyFrame::remember_touch() {
@@ -344,45 +337,40 @@ void ProxyFrame::remember_touch() {
 void ProxyFrame::remember_frame(const HandPose& drawn) {
   const HandPose& tracked = model_.tracked;
   if (found_anew_) {
-    state_.tracked_velocity.fill(Vec3::Zero());
+    state_.motion.velocity.fill(Vec3::Zero());
     state_.offset_velocity.fill(Vec3::Zero());
   } else {
     const SettledFrame& last = *state_.last;
+    follow_velocity(last.tracked, tracked, seconds_, jumped_, state_.motion);
     for (std::size_t i = 0; i < kJointCount; ++i) {
       const Vec3 way = tracked.joints[i].position - last.tracked.joints[i].position;
-      const Vec3 change = way / seconds_ - state_.tracked_velocity[i];
-      state_.tracked_velocity[i] += jumped_ ? shortened(change, kLongestMotion_mps) : change;
       const Vec3 drawn_way = drawn.joints[i].position - last.drawn.joints[i].position;
       state_.offset_velocity[i] = (drawn_way - way) / seconds_;
     }
   }
   state_.last = SettledFrame{tracked, drawn, correction_};
   watch_surface(object_, deformed_ && !found_anew_, seconds_, state_);
-  state_.object = object_.identity();
   state_.shape = object_.surface().shape();
   state_.scale = object_.scale();
 }
 
 /// Whether its object is gone, or another is there, in which the drawn hand was.
 bool ProxyFrame::is_displaced() const {
-  if (!seen_.before) return false;
-  if (found_anew_) return true;
-  return seen_.at_another && is_thrown(*seen_.before, correction_);
+  return before_ && (found_anew_ || (seen_.at_another && is_thrown(*before_, correction_)));
 }
 
 /// What the object let go, or left, is found anew at once, and drawn so a little later: it comes
 /// back through the object.
 HandPose ProxyFrame::on_its_way_back(const HandPose& settled) {
   if (let_go_from_) {
-    start_return(*let_go_from_, correction_, kLetGoReturn_s, state_);
+    start_return(*let_go_from_, correction_, kLetGoLonger * tuning_.return_s, state_);
   } else if (is_displaced()) {
-    start_return(seen_.before->correction, correction_, kThrownReturn_s, state_);
+    start_return(before_->correction, correction_, kThrownLonger * tuning_.return_s, state_);
     state_.offset_velocity.fill(Vec3::Zero());
   }
   state_.shown = correction_;
   const double left = follow_return(seconds_, state_);
   if (left == 0.0) return settled;
-  state_.mode = ProxyMode::returning;
   state_.shown = after_step(correction_, left * state_.returning.from, model_.ranges);
   return pose_hand(model_, state_.shown).hand;
 }
@@ -390,16 +378,16 @@ HandPose ProxyFrame::on_its_way_back(const HandPose& settled) {
 ProxyResult ProxyFrame::finish() {
   const bool near = reach_of(step_between({}, correction_)) < kReleased_m;
   if (!pushed_ && near) correction_ = {};
-  const bool touches = pushed_ || hovers();
+  const bool touches =
+      pushed_ || std::any_of(found_.parts.begin(), found_.parts.end(),
+                             [this](const PartTouch& part) { return is_near(part); });
   state_.touch.air_s = touches ? 0.0 : state_.touch.air_s + seconds_;
-  if (state_.mode != ProxyMode::blocked || !pushed_) {
-    state_.mode = touches ? ProxyMode::contact : ProxyMode::free;
-  }
   const HandPose hand = is_none(correction_) ? model_.tracked : posed_.hand;
   remember_touch();
   remember_frame(hand);
   ProxyResult result;
   result.hand = on_its_way_back(hand);
+  state_.mode = mode_after(touches, pushed_, state_);
   result.touches = touches;
   result.corrected = !is_none(correction_) || state_.mode == ProxyMode::returning;
   for (std::size_t i = 0; i < kPartCount; ++i) {
@@ -419,6 +407,26 @@ ProxyResult ProxyFrame::finish() {
   return result;
 }
 
+namespace {
+
+/// What became of a tracked hand at such an object, in the world; the tracked one itself where
+/// nothing did.
+ProxyResult brought_back(const Pose& object, const HandPose& tracked, ProxyResult result) {
+  result.hand = result.corrected ? moved(result.hand, object) : tracked;
+  for (std::optional<PartContact>& contact : result.contacts) {
+    if (!contact) continue;
+    for (Vec3* point : {&contact->ray_origin, &contact->surface_point, &contact->target}) {
+      *point = object.apply(*point);
+    }
+    for (Vec3* way : {&contact->ray_direction, &contact->normal, &contact->skin_direction}) {
+      *way = object.rotation * *way;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
 ProxyHand::ProxyHand(const HandFlesh& flesh, const ProxyTuning& tuning)
     : flesh_(&flesh), tuning_(tuning), state_(std::make_unique<ProxyState>(flesh)) {}
 ProxyHand::ProxyHand(ProxyHand&&) noexcept = default;
@@ -428,10 +436,14 @@ ProxyHand::~ProxyHand() = default;
 ProxyResult ProxyHand::update(const HandPose& tracked, double scale, const Object& object,
                               double seconds, const SettleOptions& options) noexcept {
   if (is_nowhere(object, tracked)) return update(tracked, scale, nothing(), seconds, options);
-  const SeenHand seen = see_hand(tracked, object, seconds, *state_);
+  const std::optional<SettledFrame>& last = state_->last;
+  const SeenHand seen =
+      see_hand(tracked, object, seconds, last ? &last->tracked : nullptr, state_->object);
+  const std::optional<ShownBefore> before = go_on(seen, object, *state_);
   const ScaledSurface surface(object);
-  ProxyFrame frame(seen, *flesh_, tuning_, rounded(scale), surface, seconds, options, *state_);
-  return brought_back(state_->place, tracked, frame.run());
+  ProxyFrame frame(seen, before, *flesh_, tuning_, rounded(scale), surface, seconds, options,
+                   *state_);
+  return brought_back(state_->object.place, tracked, frame.run());
 }
 
 void ProxyHand::forget() noexcept {

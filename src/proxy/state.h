@@ -12,6 +12,9 @@
 #include "nade/surface.h"
 #include "pad_plane.h"
 #include "solver.h"
+#include "tracking/clock.h"
+#include "tracking/glitch.h"
+#include "tracking/object_frame.h"
 
 namespace nade {
 
@@ -49,10 +52,7 @@ struct FrameBeforeJump {
   SettledFrame frame;
   SurfaceTouch touch;
   ProxyMode mode = ProxyMode::lost;
-  double ago_s = std::numeric_limits<double>::infinity();
 };
-/// Of the last few jumps: a tracker may err anew before it is back.
-using FramesBeforeJumps = std::array<FrameBeforeJump, 3>;
 
 /// What was seen of a deforming surface near a joint of the drawn hand.
 struct SurfaceWatch {
@@ -61,9 +61,17 @@ struct SurfaceWatch {
 };
 inline constexpr std::size_t kSurfaceWatches = 7;
 
+/// How a hand was drawn in the last frame, in the axes of where the object is now, and how far the
+/// tracked one has come since by itself.
+struct ShownBefore {
+  Correction correction;
+  double way_m = 0.0;
+};
+
 /// A hand that was let go, on its way from one correction to another.
 struct Return {
   HandFreedoms from = HandFreedoms::Zero();  ///< what it had more, along the object's axes
+  double left = 0.0;                         ///< of that, 1 to 0
   double elapsed_s = std::numeric_limits<double>::infinity();
   double lasts_s = 1.0;
 };
@@ -73,11 +81,13 @@ struct Return {
 struct ProxyState {
   explicit ProxyState(const HandFlesh& flesh);
 
-  // Where the object is.
-  Pose home;                 ///< when the hand was found, in the world
-  Pose place;                ///< in the last frame
-  Vec3 went = Vec3::Zero();  ///< the tracked palm's way in the last frame, in the world
-  ObjectIdentity object;
+  // The filter in front.
+  TrackerClock clock;
+  TrackedMotion motion;
+  std::array<FrameBeforeJump, std::tuple_size_v<decltype(TrackedMotion::jumps_from)>> before_jumps;
+
+  // The object.
+  ObjectFrame object;
   std::uint64_t shape = 0;    ///< the surface's
   double scale = 1.0;         ///< the object's
   double undeformed_s = 0.0;  ///< how long both have been the same
@@ -86,11 +96,8 @@ struct ProxyState {
   // The hand.
   ProxyMode mode = ProxyMode::lost;
   std::optional<SettledFrame> last;
-  Correction shown;                 ///< the last one as drawn, which may be on its way there
-  JointVectors tracked_velocity{};  ///< m/s
-  JointVectors offset_velocity{};   ///< of the drawn joints against the tracked ones
-  double frame_s = 0.0;             ///< between frames, in the mean
-  FramesBeforeJumps before_jumps;
+  Correction shown;                ///< the last one as drawn, which may be on its way there
+  JointVectors offset_velocity{};  ///< of the drawn joints against the tracked ones, m/s
   SurfaceTouch touch;
   double clear_s = 0.0;  ///< how long the tracked hand is clear of the object, the drawn one far
   double stuck_s = 0.0;  ///< how long it presses elsewhere
@@ -107,6 +114,13 @@ struct ProxyState {
   SolverRoom room;
 };
 
+/// What is known of the last frame goes on in this one's place, whichever object it is at; of
+/// another one's surface nothing is known.
+/// Gives how it was drawn, of a hand that was seen then and did not jump.
+std::optional<ShownBefore> go_on(const SeenHand& seen, const Object& object,
+                                 ProxyState& state) noexcept;
+/// Takes in whether the tracked hand jumped since the last frame, or back to where it was.
+[[nodiscard]] bool has_jumped(const HandPose& tracked, double seconds, ProxyState& state) noexcept;
 /// The surface has another shape: what its pads saw does not count.
 void forget_planes(ProxyState& state) noexcept;
 /// The surface is another's: nothing is known of it.

@@ -7,20 +7,22 @@
 namespace nade {
 namespace {
 
-/// No hand accelerates more, m/s^2; and a tracker is wont to err by so much.
+// Anatomy: no hand accelerates more, m/s^2; at the tips of the digits it may be so many times that.
 constexpr double kMostAcceleration = 150.0;
-constexpr double kTrackersError_m = 0.005;
-/// At the tips of the digits it may be so many times that.
 constexpr double kTipsMore = 1.5;
-/// A jump back comes so soon, to no farther from where the hand was than this.
+// Trackers: they are wont to err by so much; they jump back so soon, to no farther than this from
+// where the hand was; and of a jump's velocity, at most this counts.
+constexpr double kTrackersError_m = 0.005;
 constexpr double kSoon_s = 0.3;
 constexpr double kThere_m = 0.04;
+constexpr double kMostOfJump_mps = 1.0;
 
-bool has_jumped(const HandPose& tracked, double seconds, const ProxyState& state) {
+bool has_jumped(const HandPose& last, const HandPose& tracked, double seconds,
+                const JointVectors& velocity) {
   const double most_mps = kMostAcceleration * seconds + kTrackersError_m / seconds;
   const auto changes_more = [&](Joint joint, double than_mps) {
-    const Vec3 way = tracked[joint].position - state.last->tracked[joint].position;
-    return (way / seconds - state.tracked_velocity[index_of(joint)]).norm() > than_mps;
+    const Vec3 way = tracked[joint].position - last[joint].position;
+    return (way / seconds - velocity[index_of(joint)]).norm() > than_mps;
   };
   for (const Joint corner : {Joint::wrist, Joint::index_proximal, Joint::little_proximal}) {
     if (changes_more(corner, most_mps)) return true;
@@ -31,40 +33,40 @@ bool has_jumped(const HandPose& tracked, double seconds, const ProxyState& state
   return false;
 }
 
-/// The frame before a jump to which the hand has jumped back, if any: the nearest.
-const FrameBeforeJump* gone_back_to(const HandPose& tracked, const FramesBeforeJumps& frames) {
-  const FrameBeforeJump* nearest = nullptr;
-  double nearest_m = kThere_m;
-  for (const FrameBeforeJump& before : frames) {
-    if (before.ago_s > kSoon_s) continue;
-    const double away_m = largest_motion(before.frame.tracked, tracked);
-    if (away_m >= nearest_m) continue;
-    nearest_m = away_m;
-    nearest = &before;
-  }
-  return nearest;
-}
-
-FrameBeforeJump& oldest_of(FramesBeforeJumps& frames) {
-  return *std::max_element(frames.begin(), frames.end(),
-                           [](const auto& a, const auto& b) { return a.ago_s < b.ago_s; });
-}
-
 }  // namespace
 
-bool follow_jumps(const HandPose& tracked, double seconds, ProxyState& state) noexcept {
-  for (FrameBeforeJump& before : state.before_jumps) before.ago_s += seconds;
-  if (!has_jumped(tracked, seconds, state)) return false;
-  if (const FrameBeforeJump* const before = gone_back_to(tracked, state.before_jumps)) {
-    state.last = before->frame;
-    state.touch = before->touch;
-    state.mode = before->mode;
-    forget_planes(state);
-    state.before_jumps = {};
-  } else {
-    oldest_of(state.before_jumps) = {*state.last, state.touch, state.mode, seconds};
+SeenJump follow_jumps(const HandPose& last, const HandPose& tracked, double seconds,
+                      TrackedMotion& motion) noexcept {
+  auto& frames = motion.jumps_from;
+  for (BeforeJump& before : frames) before.ago_s += seconds;
+  if (!has_jumped(last, tracked, seconds, motion.velocity)) return {};
+  SeenJump seen{Jump::away, 0};
+  double nearest_m = kThere_m;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (frames[i].ago_s > kSoon_s) continue;
+    const double away_m = largest_motion(frames[i].tracked, tracked);
+    if (away_m >= nearest_m) continue;
+    nearest_m = away_m;
+    seen = {Jump::back, i};
   }
-  return true;
+  if (seen.jump == Jump::back) {
+    frames = {};
+    return seen;
+  }
+  const auto oldest = std::max_element(
+      frames.begin(), frames.end(), [](const auto& a, const auto& b) { return a.ago_s < b.ago_s; });
+  *oldest = {last, seconds};
+  seen.slot = static_cast<std::size_t>(oldest - frames.begin());
+  return seen;
+}
+
+void follow_velocity(const HandPose& last, const HandPose& tracked, double seconds, bool jumped,
+                     TrackedMotion& motion) noexcept {
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    const Vec3 way = tracked.joints[i].position - last.joints[i].position;
+    const Vec3 change = way / seconds - motion.velocity[i];
+    motion.velocity[i] += jumped ? shortened(change, kMostOfJump_mps) : change;
+  }
 }
 
 }  // namespace nade

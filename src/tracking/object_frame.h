@@ -2,9 +2,8 @@
 
 #include <optional>
 
-#include "proxy/proxy_hand.h"
-#include "proxy/scaled_surface.h"
-#include "proxy/state.h"
+#include "nade/skeleton.h"
+#include "nade/surface.h"
 
 namespace nade {
 
@@ -19,34 +18,33 @@ inline constexpr double kTeleport_m = 0.1;
 /// One that was not seen for longer may be anywhere.
 inline constexpr double kMissing_s = 0.2;
 
-/// How a hand was drawn in the last frame, in the axes of where the object is now, and how far the
-/// tracked one has come since by itself.
-struct ShownBefore {
-  Correction correction;
-  double way_m = 0.0;
+/// Where the object is.
+struct ObjectFrame {
+  Pose home;                 ///< when the hand was found, in the world
+  Pose place;                ///< in the last frame
+  Vec3 went = Vec3::Zero();  ///< the tracked palm's way in the last frame, in the world
+  ObjectIdentity object;
 };
 
 /// A tracked hand in the object's frame.
 struct SeenHand {
   HandPose tracked;
-  std::optional<ShownBefore> before;  ///< none of one that was not seen then, or jumped
-  bool at_another = false;            ///< it goes on at another object than the last frame's
+  bool goes_on = false;         ///< from the last frame
+  bool at_another = false;      ///< object than the last frame's, though it goes on
+  std::optional<double> way_m;  ///< it came by itself; none if it was not seen then, or jumped
+  Pose from_last;               ///< leads from the last frame's place to this one's
 };
 
-/// Begins a frame: the hand and where the object is, which `state.home` and `state.place` say from
-/// then on. Of another object than the last frame's nothing is known.
+/// Begins a frame: the hand and where the object is, which `frame.home` and `frame.place` say from
+/// then on. `last` is the tracked hand of the last frame at its place, if any. Of another object
+/// than the last frame's nothing is known.
 [[nodiscard]] SeenHand see_hand(const HandPose& tracked, const Object& object, double seconds,
-                                ProxyState& state) noexcept;
+                                const HandPose* last, ObjectFrame& frame) noexcept;
 
 /// Whether an object is not there, or too far from the hand for numbers.
 [[nodiscard]] bool is_nowhere(const Object& object, const HandPose& tracked) noexcept;
 
 /// The hand's size over the flesh's, rounded.
 [[nodiscard]] double rounded(double scale) noexcept;
-
-/// What became of a tracked hand at such an object, in the world; the tracked one itself where
-/// nothing did.
-[[nodiscard]] ProxyResult brought_back(const Pose& object, const HandPose& tracked,
-                                       ProxyResult result) noexcept;
 
 }  // namespace nade
