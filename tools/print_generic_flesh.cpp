@@ -18,11 +18,11 @@ using nade::HandMesh;
 
 /// Hundredths of a millimetre and thousandths of the whole.
 std::string row_of(const FleshPoint& point, const HandMesh& mesh) {
-  const nade::Vec3 position = mesh.bind.joints[point.joints[0]].apply(point.local[0]);
+  const nade::Vec3 position = nade::position_of(point, mesh.bind, 1.0);
   std::string text = fmt::format("{{{}, {}, {}", std::lround(1e5 * position.x()),
                                  std::lround(1e5 * position.y()), std::lround(1e5 * position.z()));
   for (std::size_t k = 0; k < 4; ++k) {
-    text += fmt::format(", {}, {}", point.joints[k], std::lround(1e3 * point.weights[k]));
+    text += fmt::format(", {}, {}", point.joints[k], std::lround(1e3F * point.shares[k].w()));
   }
   return text + "}";
 }

@@ -111,12 +111,19 @@ std::unique_ptr<Obstacle> make_obstacle(const LoadedObject& object, const Placem
   return obstacle;
 }
 
+/// A point of the skin as its heaviest joint's frame has it, in the mesh's own size.
+Vec3 local_of(const FleshPoint& point) {
+  const Eigen::Vector4f& share = point.shares[0];
+  return (share.head<3>() / share.w()).cast<double>();
+}
+
 /// A bone's thickness: the median distance of its skin from its axis, metres.
 double bone_radius(const HandFlesh& flesh, Joint joint, double scale) {
   std::vector<double> distances;
   for (const FleshPoint& point : flesh.skin) {
     if (point.joints[0] != index_of(joint)) continue;
-    distances.push_back(std::hypot(point.local[0].x(), point.local[0].y()));
+    const Vec3 local = local_of(point);
+    distances.push_back(std::hypot(local.x(), local.y()));
   }
   if (distances.empty()) return 0.007 * scale;
   const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
@@ -235,7 +242,7 @@ class HandBodies {
     for (const FleshPoint& point : flesh.skin) {
       const Joint joint = joint_at(point.joints[0]);
       if (!is_palm(joint)) continue;
-      const Vec3 world = hand[joint].apply(scale * point.local[0]);
+      const Vec3 world = hand[joint].apply(scale * local_of(point));
       hull->addPoint(to_bullet(to_palm.apply(world)), false);
     }
     hull->setMargin(static_cast<btScalar>(kMargin_m));
