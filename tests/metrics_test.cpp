@@ -525,7 +525,7 @@ Metrics measure_look(const std::function<HandPose(const HandPose& tracked)>& dra
   });
 }
 
-TEST(Metrics, SunkSkinPrintsAndLiftedSkinHovers) {
+TEST(Metrics, SkinThatIsLiftedOrSunkBeyondItsFleshHoversAndDoesNotPrint) {
   NADE_TEST_GENERIC_HAND(mesh, Handedness::right);
   // Palm down, its joint at the origin.
   const HandPose flat = moved(mesh.bind, mesh.bind[Joint::palm].inverse());
@@ -537,11 +537,16 @@ TEST(Metrics, SunkSkinPrintsAndLiftedSkinHovers) {
     }
     return meter.finish();
   };
-  const Metrics sunk = look(0.0);
-  EXPECT_EQ(sunk.print_share, 1.0);
-  EXPECT_EQ(sunk.hover_mm, 0.0);
-  EXPECT_EQ(sunk.heel_share, 1.0);
-  EXPECT_GT(*sunk.excess_max_mm, 10.0);
+  const Metrics sunk = look(-0.1);
+  EXPECT_EQ(sunk.print_share, 0.0);
+  EXPECT_EQ(sunk.heel_share, 0.0);
+  EXPECT_GT(*sunk.excess_max_mm, 100.0);
+  EXPECT_NEAR(*look(-0.101).hover_mm - *sunk.hover_mm, 1.0, 1e-4);
+  // Its heel lies on the plane; the thumb of this rigid pose hangs lower.
+  const Metrics pressed = look(0.018);
+  EXPECT_GT(*pressed.heel_share, 0.5);
+  EXPECT_GT(*pressed.print_share, 0.3);
+  EXPECT_LT(*pressed.hover_mm, 10.0);
   const Metrics high = look(0.1);
   EXPECT_EQ(high.print_share, 0.0);
   EXPECT_EQ(high.heel_share, 0.0);

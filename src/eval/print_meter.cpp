@@ -6,7 +6,7 @@
 namespace nade {
 namespace {
 
-/// Skin this near the surface is part of the handprint.
+/// Skin this near to where it may lie is part of the handprint.
 constexpr double kPrint_m = 0.0015;
 /// Less pressed skin than this leaves no print to judge.
 constexpr double kSmallestPrint = 10e-4;
@@ -17,11 +17,17 @@ struct Areas {
   double pressed_m2 = 0.0;
   double touching_m2 = 0.0;
 
-  void add(double area_m2, double corrected_m) {
+  void add(double area_m2, double off_m) {
     pressed_m2 += area_m2;
-    if (corrected_m < kPrint_m) touching_m2 += area_m2;
+    if (off_m < kPrint_m) touching_m2 += area_m2;
   }
 };
+
+/// How far skin is from where it may lie: on the surface, or in it as deep as its flesh gives.
+/// Deeper skin would draw no print either: what is seen there is the object.
+double off_by(double corrected_m, double flesh_depth_m) {
+  return std::max({0.0, corrected_m, -corrected_m - flesh_depth_m});
+}
 
 }  // namespace
 
@@ -45,16 +51,17 @@ void PrintMeter::add(const PrintFrame& frame) {
 void PrintMeter::take_print(const PrintFrame& frame) {
   Areas palmar;
   Areas heel;
-  double height_m3 = 0.0;
+  double off_m3 = 0.0;
   for (std::size_t i = 0; i < frame.tracked_m.size(); ++i) {
     if (!skin_.is_palmar(i) || frame.tracked_m[i] >= -kPressing_m) continue;
-    palmar.add(skin_.area_m2[i], frame.corrected_m[i]);
-    height_m3 += skin_.area_m2[i] * std::max(0.0, frame.corrected_m[i]);
-    if (skin_.region[i] == SkinRegion::heel) heel.add(skin_.area_m2[i], frame.corrected_m[i]);
+    const double off_m = off_by(frame.corrected_m[i], skin_.flesh_depth_m[i]);
+    palmar.add(skin_.area_m2[i], off_m);
+    off_m3 += skin_.area_m2[i] * off_m;
+    if (skin_.region[i] == SkinRegion::heel) heel.add(skin_.area_m2[i], off_m);
   }
   if (palmar.pressed_m2 >= kSmallestPrint) {
     share_.add(palmar.touching_m2 / palmar.pressed_m2);
-    hover_mm_.add(1e3 * height_m3 / palmar.pressed_m2);
+    hover_mm_.add(1e3 * off_m3 / palmar.pressed_m2);
   }
   if (heel.pressed_m2 > 0.0 && heel.pressed_m2 >= kHeelPressed * heel_m2_) {
     heel_share_.add(heel.touching_m2 / heel.pressed_m2);
