@@ -15,7 +15,8 @@ DrawnMesh plain_hand(const HandMesh& mesh) {
   poser.pose(mesh.bind, 1.0);
   DrawnMesh drawn;
   drawn.positions.assign(poser.positions().begin(), poser.positions().end());
-  drawn.normals.assign(poser.normals().begin(), poser.normals().end());
+  const std::span<const Vec3f> normals = poser.normals();
+  drawn.normals.assign(normals.begin(), normals.end());
   drawn.triangles = mesh.triangles;
   drawn.material.base_color = Color::Ones();
   drawn.material.roughness = 0.5F;
@@ -37,13 +38,19 @@ SkinPoser::SkinPoser(const HandMesh& mesh)
 
 void SkinPoser::pose(const HandPose& hand, double scale) {
   pose_skin(*mesh_, hand, scale, positions_, {});
-  compute_normals();
+  has_normals_ = false;
 }
 
 void SkinPoser::flatten(SkinFlattener& flattener, const Object& object, const HandPose& hand,
                         double scale, double give_m) {
   flattener.flatten(object, hand, scale, give_m, positions_, positions_, {});
-  compute_normals();
+  has_normals_ = false;
+}
+
+std::span<const Vec3f> SkinPoser::normals() {
+  if (!has_normals_) compute_normals();
+  has_normals_ = true;
+  return normals_;
 }
 
 void SkinPoser::compute_normals() {

@@ -29,7 +29,7 @@ class SkinPoser {
   void flatten(SkinFlattener& flattener, const Object& object, const HandPose& hand, double scale,
                double give_m);
   [[nodiscard]] std::span<const Eigen::Vector3f> positions() const { return positions_; }
-  [[nodiscard]] std::span<const Eigen::Vector3f> normals() const { return normals_; }
+  [[nodiscard]] std::span<const Eigen::Vector3f> normals();
 
   /// Colours by the depth of each vertex as last posed: white outside, red from 10 mm deep.
   [[nodiscard]] const std::vector<Color>& penetration_colors(const Object& object);
@@ -41,6 +41,7 @@ class SkinPoser {
   std::vector<std::uint32_t> twin_;  ///< the first vertex at the same place
   std::vector<Eigen::Vector3f> positions_;
   std::vector<Eigen::Vector3f> normals_;
+  bool has_normals_ = false;  ///< of `positions_`
   std::vector<Color> colors_;
   std::vector<SurfaceHint> hints_;
 };
