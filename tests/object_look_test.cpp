@@ -175,6 +175,19 @@ TEST_F(StageFiles, WhatIsSolidIsDrawn) {
   EXPECT_GT(count_covered(map), 3000u);
 }
 
+/// Hundreds of boards in one place, which a software renderer would draw for a minute.
+TEST_F(StageFiles, LayersUponLayersAreThinned) {
+  std::string text = "OFF\n4 1000 0\n-0.1 0 -0.1\n0.1 0.01 -0.1\n0.1 0 0.1\n-0.1 0.01 0.1\n";
+  for (int i = 0; i < 1000; ++i) text += "3 0 3 2\n";
+  test::write_file(path("layers.off"), text);
+  show(path("layers.off"));
+  ASSERT_FALSE(stage_->warnings().empty());
+  EXPECT_NE(stage_->warnings().back().find("layers: drawn with one in"), std::string::npos);
+  const DepthMap map =
+      renderer_->depths(stage_->object_only(), above(0.5), kWidth, kHeight, Faces::front);
+  EXPECT_GT(count_covered(map), 1000u);
+}
+
 TEST_F(StageFiles, MissingTextureOfAGltfFileIsSaidAndTheObjectDrawn) {
   write_gltf("lost", {{"uri", "nowhere.png"}});
   show(path("lost.gltf"));

@@ -1,5 +1,7 @@
 #include "object_look.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -304,6 +306,39 @@ void face_outward(const LoadedObject& object, DrawnMesh& mesh) {
   for (Vec3f& normal : mesh.normals) normal = -normal;
 }
 
+/// Leaves out triangles, evenly, where they lie in so many layers that drawing them would take
+/// minutes.
+void thin_layers(const std::string& path, DressedObject& object) {
+  constexpr double kMostLayers = 16.0;
+  Eigen::AlignedBox3f box;
+  double area = 0.0;
+  std::size_t triangles = 0;
+  for (const DrawnMesh& mesh : object.meshes) {
+    for (const Vec3f& position : mesh.positions) box.extend(position);
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const Vec3f& from = mesh.positions[a];
+      const Vec3f cross = (mesh.positions[b] - from).cross(mesh.positions[c] - from);
+      area += 0.5 * static_cast<double>(cross.norm());
+    }
+    triangles += mesh.triangles.size();
+  }
+  if (triangles == 0) return;
+  const Vec3 size = box.sizes().cast<double>();
+  const double around = 2.0 * (size.x() * size.y() + size.y() * size.z() + size.z() * size.x());
+  const double layers = area / around;
+  if (!(layers > kMostLayers)) return;
+  const auto step = static_cast<std::size_t>(std::ceil(layers / kMostLayers));
+  for (DrawnMesh& mesh : object.meshes) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < mesh.triangles.size(); i += step) {
+      mesh.triangles[kept++] = mesh.triangles[i];
+    }
+    mesh.triangles.resize(kept);
+  }
+  object.warnings.push_back(fmt::format(
+      "{}: its triangles lie in {:.0f} layers: drawn with one in {} of them", path, layers, step));
+}
+
 }  // namespace
 
 Color from_srgb(const Color& srgb) { return srgb.unaryExpr(&channel_from_srgb); }
@@ -324,6 +359,7 @@ Result<DressedObject> dress(const LoadedObject& object, Weave weave) {
   const std::string& path = object.file.empty() ? object.spec : object.file;
   Result<DressedObject> dressed = dress_file(path, object);
   if (!dressed) return dressed.error();
+  thin_layers(path, *dressed);
   for (DrawnMesh& mesh : dressed->meshes) face_outward(object, mesh);
   if (is_dog) groom(*dressed);
   return dressed;
