@@ -105,14 +105,37 @@ class Need {
   const tinygltf::Model& model_;
 };
 
-/// Hands a buffer over where tinygltf asks for the file of that number.
-bool hand_over(std::vector<unsigned char>* bytes, std::string*, const std::string& name,
-               void* user_data) {
-  auto& buffers = *static_cast<std::vector<std::string>*>(user_data);
+/// The buffer tinygltf asks for as the file of that number.
+std::string& buffer_named(const std::string& name, void* buffers) {
   const std::size_t index = std::stoul(name.substr(name.find_last_of('/') + 1));
-  bytes->assign(buffers[index].begin(), buffers[index].end());
-  buffers[index] = {};
-  return true;
+  return (*static_cast<std::vector<std::string>*>(buffers))[index];
+}
+
+/// What hands tinygltf the buffers instead of files. Version 2.9 wants every call set, and has
+/// one that 2.7 does not know: the size.
+template <class Callbacks>
+Callbacks handing_over(std::vector<std::string>& buffers) {
+  Callbacks calls{};
+  calls.user_data = &buffers;
+  calls.FileExists = [](const std::string&, void*) { return true; };
+  calls.ExpandFilePath = [](const std::string& name, void*) { return name; };
+  calls.ReadWholeFile = [](std::vector<unsigned char>* bytes, std::string*,
+                           const std::string& name, void* all) {
+    std::string& buffer = buffer_named(name, all);
+    bytes->assign(buffer.begin(), buffer.end());
+    buffer = {};
+    return true;
+  };
+  calls.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&,
+                            void*) { return false; };
+  if constexpr (requires { calls.GetFileSizeInBytes; }) {
+    calls.GetFileSizeInBytes = [](std::size_t* bytes, std::string*, const std::string& name,
+                                  void* all) {
+      *bytes = buffer_named(name, all).size();
+      return true;
+    };
+  }
+  return calls;
 }
 
 Result<tinygltf::Model> model_of(Document document, const std::string& path) {
@@ -122,9 +145,7 @@ Result<tinygltf::Model> model_of(Document document, const std::string& path) {
     return Error{ErrorCode::bad_format, fmt::format("{}: its JSON is too large", path)};
   }
   tinygltf::TinyGLTF loader;
-  loader.SetFsCallbacks({[](const std::string&, void*) { return true; },
-                         [](const std::string& name, void*) { return name; }, hand_over, nullptr,
-                         &document.buffers});
+  loader.SetFsCallbacks(handing_over<tinygltf::FsCallbacks>(document.buffers));
   tinygltf::Model model;
   std::string problem;
   std::string ignored;
