@@ -35,12 +35,12 @@ class SkinFlattener {
   /// Some skin that one bone leads. Out of the surface is where its flesh is: a closest point
   /// would take what lies beyond the middle of a board for the other side's.
   struct Piece {
-    std::uint8_t bone = 0;  ///< as index_of(Joint)
+    std::size_t bone = 0;  ///< as index_of(Joint)
     Vec3 skin_local = Vec3::Zero();
     Vec3 inward_local = Vec3::Zero();  ///< unit
     double flesh_m = 0.0;              ///< the deepest of it
     double radius_m = 0.0;             ///< no vertex of it is farther from `skin_local`
-    std::vector<std::uint32_t> vertices;
+    std::vector<std::size_t> vertices;
     SurfaceHint hint;
     Vec3 inner = Vec3::Zero();  ///< in this frame: a point in its flesh,
     double height_m = 0.0;      ///< how high that is, at the least
@@ -56,7 +56,7 @@ class SkinFlattener {
   void share(const HandMesh& mesh);
   void find_ways_out(const Object& object, const HandPose& hand, double scale,
                      double give_m) noexcept;
-  [[nodiscard]] Vec3 way_out(std::uint32_t vertex) const noexcept;
+  [[nodiscard]] Vec3 way_out(std::size_t vertex) const noexcept;
 
   std::vector<double> flesh_m_;  ///< by vertex
   std::vector<Piece> pieces_;

@@ -9,6 +9,7 @@
 #include "nade/assert.h"
 #include "nade/skin.h"
 #include "ramps.h"
+#include "skin_pieces.h"
 
 namespace nade {
 namespace {
@@ -39,13 +40,6 @@ constexpr double kAgreed = 0.15;
 /// Vertices are carried by other bones, too: so much farther from a piece than in the bind pose.
 constexpr double kSlack_m = 0.006;
 
-std::uint8_t leading_bone(const HandMesh& mesh, std::size_t vertex) {
-  std::array<float, kJointCount> weights{};
-  for (std::size_t k = 0; k < 4; ++k) weights[mesh.bones[vertex][k]] += mesh.weights[vertex][k];
-  return static_cast<std::uint8_t>(std::max_element(weights.begin(), weights.end()) -
-                                   weights.begin());
-}
-
 /// 0 for the palm, else a finger: one may be on this side of a board, the next on the other.
 std::size_t limb_of(std::size_t bone) {
   for (std::size_t d = 0; d < kDigitCount; ++d) {
@@ -53,39 +47,6 @@ std::size_t limb_of(std::size_t bone) {
     if (bone > index_of(joints.metacarpal) && bone <= index_of(joints.tip)) return d + 1;
   }
   return 0;
-}
-
-/// The palmar axis of a bone; of the thumb's, if it is nearer to `normal`, the palm's. Flesh is
-/// sunk along it.
-Vec3 palmar_axis_near(const HandMesh& mesh, std::uint8_t bone, const Vec3& normal) {
-  const Vec3 own = mesh.bind.joints[bone].rotation * -Vec3::UnitY();
-  const Joint joint = joint_at(bone);
-  if (joint != Joint::thumb_metacarpal && joint != Joint::thumb_proximal) return own;
-  const Vec3 palm = mesh.bind[Joint::middle_metacarpal].rotation * -Vec3::UnitY();
-  return palm.dot(normal) > own.dot(normal) ? palm : own;
-}
-
-/// Splits skin so that none is farther than `kWidestPiece_m` from the first of its piece.
-std::vector<std::vector<std::uint32_t>> split_skin(const HandMesh& mesh,
-                                                   const std::vector<std::uint32_t>& vertices) {
-  std::vector<std::vector<std::uint32_t>> pieces;
-  std::vector<double> distance(vertices.size(), std::numeric_limits<double>::infinity());
-  std::vector<std::size_t> owner(vertices.size(), 0);
-  std::size_t first = 0;
-  do {
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-      const double to_first =
-          static_cast<double>((mesh.vertices[vertices[i]] - mesh.vertices[vertices[first]]).norm());
-      if (to_first >= distance[i]) continue;
-      distance[i] = to_first;
-      owner[i] = pieces.size();
-    }
-    pieces.emplace_back();
-    first = static_cast<std::size_t>(std::max_element(distance.begin(), distance.end()) -
-                                     distance.begin());
-  } while (distance[first] > kWidestPiece_m);
-  for (std::size_t i = 0; i < vertices.size(); ++i) pieces[owner[i]].push_back(vertices[i]);
-  return pieces;
 }
 
 /// How high skin is drawn that is so high, and how fast that grows: as it is from `kBorder_m` on,
@@ -132,24 +93,24 @@ SkinFlattener::SkinFlattener(const HandMesh& mesh) {
 
 void SkinFlattener::cut(const HandMesh& mesh) {
   // The palmar half of a bone's skin, and its back.
-  std::map<std::pair<std::uint8_t, bool>, std::vector<std::uint32_t>> halves;
-  for (std::uint32_t i = 0; i < mesh.vertices.size(); ++i) {
-    const std::uint8_t bone = leading_bone(mesh, i);
+  std::map<std::pair<std::size_t, bool>, std::vector<std::size_t>> halves;
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const std::size_t bone = heaviest(weights_of(mesh, i));
     const Vec3 back = mesh.bind.joints[bone].rotation * Vec3::UnitY();
     halves[{bone, back.dot(mesh.normals[i].cast<double>()) > 0.0}].push_back(i);
   }
   for (const auto& [half, skin] : halves) {
-    for (std::vector<std::uint32_t>& vertices : split_skin(mesh, skin)) {
+    for (std::vector<std::size_t>& vertices : split_skin(mesh, skin, kWidestPiece_m)) {
       Vec3 middle = Vec3::Zero();
       Vec3 out = Vec3::Zero();
       Piece piece;
       piece.bone = half.first;
-      for (const std::uint32_t i : vertices) {
+      for (const std::size_t i : vertices) {
         middle += mesh.vertices[i].cast<double>() / static_cast<double>(vertices.size());
         out += mesh.normals[i].cast<double>();
         piece.flesh_m = std::max(piece.flesh_m, flesh_m_[i]);
       }
-      for (const std::uint32_t i : vertices) {
+      for (const std::size_t i : vertices) {
         piece.radius_m =
             std::max(piece.radius_m, (mesh.vertices[i].cast<double>() - middle).norm());
       }
@@ -158,7 +119,7 @@ void SkinFlattener::cut(const HandMesh& mesh) {
       // Deep flesh goes in along the palmar axis also where its skin lies aslant.
       out.normalize();
       out += kAlongAxis * smoothstep(kThin_m, kThick_m, piece.flesh_m) *
-             palmar_axis_near(mesh, piece.bone, out);
+             palmar_axis(mesh, joint_at(piece.bone), out);
       const double length = out.norm();
       if (length > 0.0) piece.inward_local = bind.rotation.conjugate() * (-out / length);
       piece.vertices = std::move(vertices);
@@ -170,7 +131,7 @@ void SkinFlattener::cut(const HandMesh& mesh) {
 void SkinFlattener::share(const HandMesh& mesh) {
   std::vector<std::uint32_t> own(mesh.vertices.size());
   for (std::uint32_t p = 0; p < pieces_.size(); ++p) {
-    for (const std::uint32_t i : pieces_[p].vertices) own[i] = p;
+    for (const std::size_t i : pieces_[p].vertices) own[i] = p;
   }
   first_share_.push_back(0);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
@@ -216,7 +177,7 @@ void SkinFlattener::find_ways_out(const Object& object, const HandPose& hand, do
   }
 }
 
-Vec3 SkinFlattener::way_out(std::uint32_t vertex) const noexcept {
+Vec3 SkinFlattener::way_out(std::size_t vertex) const noexcept {
   Vec3 sum = Vec3::Zero();
   for (std::uint32_t k = first_share_[vertex]; k < first_share_[vertex + 1]; ++k) {
     sum += shares_[k].weight * pieces_[shares_[k].piece].out;
@@ -235,7 +196,7 @@ void SkinFlattener::flatten(const Object& object, const HandPose& hand, double s
   if (!is_usable(hand) || !std::isfinite(scale) || !(scale > 0.0) || !(give_m >= 0.0)) return;
   find_ways_out(object, hand, scale, give_m);
   for (const Piece& piece : pieces_) {
-    for (const std::uint32_t i : piece.vertices) {
+    for (const std::size_t i : piece.vertices) {
       const Vec3 at = posed[i].cast<double>();
       // No surface is nearer to it.
       if (piece.height_m - (at - piece.inner).norm() > kBorder_m) continue;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "nade/assert.h"
+#include "skin_pieces.h"
 
 namespace nade {
 namespace {
@@ -30,7 +31,6 @@ constexpr double kPatchesApart_m = 0.009;
 constexpr double kSmallestPatchM2 = 5e-6;
 
 using Indices = std::vector<std::size_t>;
-using JointWeights = std::array<double, kJointCount>;
 
 Vec3 position_of(const HandMesh& mesh, std::size_t vertex) {
   return mesh.vertices[vertex].cast<double>();
@@ -56,19 +56,6 @@ Indices spread_vertices(const HandMesh& mesh, double apart_m) {
   return result;
 }
 
-JointWeights weights_of(const HandMesh& mesh, std::size_t vertex) {
-  JointWeights weights{};
-  for (std::size_t k = 0; k < 4; ++k) {
-    weights[mesh.bones[vertex][k]] += static_cast<double>(mesh.weights[vertex][k]);
-  }
-  return weights;
-}
-
-std::size_t heaviest(const JointWeights& weights) {
-  return static_cast<std::size_t>(std::max_element(weights.begin(), weights.end()) -
-                                  weights.begin());
-}
-
 std::optional<Part> patch_of(const HandMesh& mesh, const SkinDepths& depths, std::size_t vertex) {
   for (std::size_t i = 0; i < kPartCount; ++i) {
     if (is_in_patch(mesh, depths, part_at(i), vertex)) return part_at(i);
@@ -91,29 +78,6 @@ FleshPoint attach(const HandPose& bind, const Vec3& position, JointWeights weigh
     point.attach(k, joint, weight / sum, bind.joints[joint].inverse().apply(position));
   }
   return point;
-}
-
-/// Splits vertices so that none is farther than `kWidest_m` from the first of its piece: each next
-/// piece starts at the vertex that is farthest from all firsts.
-std::vector<Indices> split(const HandMesh& mesh, const Indices& vertices) {
-  std::vector<Indices> pieces;
-  std::vector<double> distance(vertices.size(), std::numeric_limits<double>::infinity());
-  std::vector<std::size_t> owner(vertices.size(), 0);
-  std::size_t first = 0;
-  do {
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-      const double to_first =
-          (position_of(mesh, vertices[i]) - position_of(mesh, vertices[first])).norm();
-      if (to_first >= distance[i]) continue;
-      distance[i] = to_first;
-      owner[i] = pieces.size();
-    }
-    pieces.emplace_back();
-    first = static_cast<std::size_t>(std::max_element(distance.begin(), distance.end()) -
-                                     distance.begin());
-  } while (distance[first] > kWidest_m);
-  for (std::size_t i = 0; i < vertices.size(); ++i) pieces[owner[i]].push_back(vertices[i]);
-  return pieces;
 }
 
 /// The vertices that are farthest out in some direction, evenly spread (a Fibonacci sphere).
@@ -197,7 +161,8 @@ CutHand cut_up(const HandMesh& mesh, const Indices& kept) {
   for (const auto& [group, vertices] : groups) {
     std::optional<Part> part;
     if (group.part >= 0) part = part_at(static_cast<std::size_t>(group.part));
-    for (const Indices& piece : split(mesh, vertices)) add_pad(mesh, piece, part, cut);
+    for (const Indices& piece : split_skin(mesh, vertices, kWidest_m))
+      add_pad(mesh, piece, part, cut);
   }
   return cut;
 }

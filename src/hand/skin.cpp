@@ -5,6 +5,8 @@
 #include <map>
 
 #include "nade/assert.h"
+#include "ramps.h"
+#include "skin_pieces.h"
 
 namespace nade {
 namespace {
@@ -18,11 +20,6 @@ constexpr double kStump = -0.12;
 /// the palm's giving.
 constexpr std::array<double, kSkinRegionCount> kMostFlesh_m{0.003, 0.005, 0.012, 0.005,
                                                             0.012, 0.005, 0.0005};
-
-double smoothstep(double low, double high, double x) {
-  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
 
 /// A place on the palm: 0 to 1 from the wrist to the middle knuckle, and aside from the middle
 /// of index and little knuckle, in their distance, positive to the index.
@@ -66,15 +63,6 @@ void join_depths(const HandMesh& mesh, std::vector<double>& depth_m) {
   for (std::size_t i = 0; i < depth_m.size(); ++i) depth_m[i] = deepest[place_of(i)];
 }
 
-Joint heaviest_bone(const HandMesh& mesh, std::size_t vertex) {
-  std::array<double, kJointCount> weights{};
-  for (std::size_t k = 0; k < 4; ++k) {
-    weights[mesh.bones[vertex][k]] += static_cast<double>(mesh.weights[vertex][k]);
-  }
-  return joint_at(
-      static_cast<std::size_t>(std::max_element(weights.begin(), weights.end()) - weights.begin()));
-}
-
 SkinRegion palm_region(const PalmPlace& place) {
   if (place.along > 0.8) return SkinRegion::knuckles;
   if (place.along < 0.4 || place.aside < -0.1) return SkinRegion::heel;
@@ -108,10 +96,6 @@ SkinRegion region_at(Joint bone, const PalmPlace& place) {
   }
 }
 
-Vec3 palmar_axis(const HandMesh& mesh, Joint bone) {
-  return mesh.bind[bone].rotation * -Vec3::UnitY();
-}
-
 }  // namespace
 
 std::string_view name_of(SkinRegion region) {
@@ -128,14 +112,11 @@ SkinMap measure_skin(const HandMesh& mesh) {
   skin.flesh_depth_m.reserve(count);
   const PalmMap palm(mesh.bind);
   for (std::size_t i = 0; i < count; ++i) {
-    const Joint bone = heaviest_bone(mesh, i);
+    const Joint bone = joint_at(heaviest(weights_of(mesh, i)));
     const PalmPlace place = palm.place_of(mesh.vertices[i].cast<double>());
     const SkinRegion region = region_at(bone, place);
     const Vec3 normal = mesh.normals[i].cast<double>();
-    double facing = normal.dot(palmar_axis(mesh, bone));
-    if (region == SkinRegion::thenar) {
-      facing = std::max(facing, normal.dot(palmar_axis(mesh, Joint::middle_metacarpal)));
-    }
+    const double facing = normal.dot(palmar_axis(mesh, bone, normal));
     const bool palmar = facing > kFacing && place.along >= kStump;
     skin.region.push_back(palmar ? region : SkinRegion::back);
     skin.flesh_depth_m.push_back(
