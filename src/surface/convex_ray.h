@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "nade/surface.h"
+#include "surface_query.h"
 
 namespace nade {
 
@@ -19,18 +21,15 @@ struct SignedDistance {
 template <class At>
 [[nodiscard]] std::optional<RayHit> convex_hit(const Ray& ray, double radius, At at) {
   constexpr int kMostSteps = 64;
-  const double nearest = -ray.origin.dot(ray.direction);
-  const double miss = (ray.origin + nearest * ray.direction).norm();
-  if (!(miss <= radius)) return std::nullopt;
-  const double half_chord = std::sqrt((radius - miss) * (radius + miss));
-  const double exit = nearest + half_chord;
+  const std::optional<Chord> chord = chord_in_ball(ray.origin, ray.direction, radius);
+  if (!chord) return std::nullopt;
   const SignedDistance start = at(ray.origin);
   const double slope = start.normal.dot(ray.direction);
   const bool inside = start.distance < 0.0 || (start.distance == 0.0 && slope > 0.0);
-  if (exit < 0.0 || (!inside && slope >= 0.0)) return std::nullopt;
-  const double enough = 1e-13 * (radius + std::abs(nearest));
+  if (chord->leaves < 0.0 || (!inside && slope >= 0.0)) return std::nullopt;
+  const double enough = 1e-13 * (radius + 0.5 * std::abs(chord->enters + chord->leaves));
   // From a point of the ray that is outside the solid, on the side of the hit.
-  double t = inside ? exit : std::max(0.0, nearest - half_chord);
+  double t = inside ? chord->leaves : std::max(0.0, chord->enters);
   RayHit hit;
   for (int step = 0; step < kMostSteps; ++step) {
     const Vec3 point = ray.origin + t * ray.direction;

@@ -138,12 +138,11 @@ std::optional<RayHit> EllipsoidSurface::first_hit(const Ray& ray) const noexcept
   // Where the ellipsoid is a ball of radius 1.
   const Vec3 origin = ray.origin.cwiseQuotient(half_axes_);
   const Vec3 direction = ray.direction.cwiseQuotient(half_axes_);
-  const double nearest = -origin.dot(direction) / direction.squaredNorm();
-  const double miss = (origin + nearest * direction).norm();
-  if (!(miss <= 1.0)) return std::nullopt;
-  const double half_chord = std::sqrt((1.0 - miss) * (1.0 + miss)) / direction.norm();
-  const bool leaves = nearest - half_chord < 0.0;
-  const double distance = leaves ? nearest + half_chord : nearest - half_chord;
+  const double speed = direction.norm();
+  const std::optional<Chord> chord = chord_in_ball(origin, direction / speed, 1.0);
+  if (!chord) return std::nullopt;
+  const bool leaves = chord->enters < 0.0;
+  const double distance = (leaves ? chord->leaves : chord->enters) / speed;
   if (!(distance >= 0.0 && distance <= ray.max_distance)) return std::nullopt;
   const Vec3 on_ball = (origin + distance * direction).normalized();
   return RayHit{distance, on_ball.cwiseProduct(half_axes_),

@@ -57,13 +57,10 @@ SphereSurface::SphereSurface(double radius_m) : radius_(radius_m) {
 
 std::optional<RayHit> SphereSurface::first_hit(const Ray& ray) const noexcept {
   if (!is_query(ray)) return std::nullopt;
-  // From the point of the ray nearest the centre, where the roots are +- half a chord away.
-  const double nearest = -ray.origin.dot(ray.direction);
-  const double miss = (ray.origin + nearest * ray.direction).norm();
-  if (!(miss <= radius_)) return std::nullopt;
-  const double half_chord = std::sqrt((radius_ - miss) * (radius_ + miss));
-  const bool leaves = nearest - half_chord < 0.0;
-  const double distance = leaves ? nearest + half_chord : nearest - half_chord;
+  const std::optional<Chord> chord = chord_in_ball(ray.origin, ray.direction, radius_);
+  if (!chord) return std::nullopt;
+  const bool leaves = chord->enters < 0.0;
+  const double distance = leaves ? chord->leaves : chord->enters;
   if (!(distance >= 0.0 && distance <= ray.max_distance)) return std::nullopt;
   const Vec3 normal = (ray.origin + distance * ray.direction).normalized();
   RayHit hit = hit_at(ray, distance, radius_ * normal, normal);
