@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include "commands.h"
-#include "nade/io/mesh_file.h"
+#include "nade/io/output_file.h"
 
 namespace nade::cli {
 namespace {
@@ -52,8 +52,7 @@ Status check_apart(const std::vector<NamedFile>& outputs, const std::vector<Name
 Status check_recording_name(const std::string& option, const std::string& name) {
   std::error_code ignored;
   if (name == kStandardStream || fs::is_other(name, ignored)) return ok_status();
-  std::string ending = ending_of(name);
-  if (ending == ".gz") ending = ending_of(fs::path(name).stem().string());
+  const std::string ending = content_ending_of(name);
   if (ending.empty() || ending == ".jsonl" || ending == ".csv") return ok_status();
   return misuse(fmt::format(
       "{}: expected a name ending in .jsonl or .csv, or in .gz after one of them, found '{}'",

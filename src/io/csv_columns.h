@@ -1,13 +1,20 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "nade/hand.h"
+#include "recording_limits.h"
 
 namespace nade::io {
+
+/// What our own columns of a joint end in: position, rotation, radius.
+inline constexpr std::array<std::string_view, kJointNumbers> kJointNumberNames{
+    "px", "py", "pz", "qx", "qy", "qz", "qw", "radius"};
 
 /// What a column of a table of joints holds.
 struct JointColumn {

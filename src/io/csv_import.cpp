@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <utility>
 
 #include "csv_columns.h"
+#include "mesh_words.h"
 #include "nade/io/plain_text.h"
 #include "recording_limits.h"
 
@@ -49,13 +49,6 @@ void split(std::string_view line, char separator, std::vector<std::string_view>&
   }
 }
 
-template <class Number>
-bool parse(std::string_view text, Number& number) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return code == std::errc{} && end == text.data() + text.size();
-}
-
 std::string quoted(std::string_view text) {
   constexpr std::size_t kLongest = 40;
   return "'" + plain_text(text.substr(0, kLongest)) + "'";
@@ -75,9 +68,7 @@ bool says_no(std::string_view text) {
 
 /// As the name of a file of one hand says.
 std::optional<Handedness> side_of_file(const std::string& path) {
-  std::string name = std::filesystem::path(path).filename().string();
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string name = lower(std::filesystem::path(path).filename().string());
   const bool left = name.find("left") != std::string::npos;
   const bool right = name.find("right") != std::string::npos;
   if (left == right) return std::nullopt;
@@ -159,7 +150,6 @@ void CsvImport::take_column(std::string_view name, std::size_t column) {
 }
 
 Status CsvImport::check_columns() {
-  constexpr std::array<const char*, kNumbers> kNames{"px", "py", "pz", "qx", "qy", "qz", "qw", ""};
   if (time_column_ == kNone) {
     return wrong(ErrorCode::bad_format, "expected a column of times, as 'time_ns', found none");
   }
@@ -177,11 +167,11 @@ Status CsvImport::check_columns() {
     const HandColumns& hand = hands_[index_of(side)];
     if (!hand.any) continue;
     for (std::size_t joint = has_palm_ ? 0 : 1; joint < kJointCount; ++joint) {
-      for (std::size_t number = 0; number + 1 < kNumbers; ++number) {
+      for (std::size_t number = 0; number + 1 < kJointNumbers; ++number) {
         if (hand.at[joint][number] != kNone) continue;
         return wrong(ErrorCode::bad_format,
                      fmt::format("expected a column '{}_{}'{}, found none",
-                                 name_of(joint_at(joint)), kNames[number],
+                                 name_of(joint_at(joint)), kJointNumberNames[number],
                                  sided ? "" : fmt::format(" of the {} hand", name_of(side))));
       }
     }
@@ -261,9 +251,11 @@ Result<std::int64_t> CsvImport::time_of_row() {
   // Whole numbers without a unit are nanoseconds, others seconds.
   if (time_unit_ns_ == 0.0) time_unit_ns_ = text.find('.') == std::string_view::npos ? 1.0 : 1e9;
   std::int64_t whole = 0;
-  if (time_unit_ns_ == 1.0 && parse(text, whole) && std::abs(whole) <= kLatest_ns) return whole;
+  if (time_unit_ns_ == 1.0 && parse_word(text, whole) && std::abs(whole) <= kLatest_ns)
+    return whole;
   double number = 0.0;
-  if (parse(text, number) && std::abs(number * time_unit_ns_) <= static_cast<double>(kLatest_ns)) {
+  if (parse_word(text, number) &&
+      std::abs(number * time_unit_ns_) <= static_cast<double>(kLatest_ns)) {
     return static_cast<std::int64_t>(std::llround(number * time_unit_ns_));
   }
   return wrong(ErrorCode::bad_value, fmt::format("expected a time, found {}", quoted(text)));
@@ -278,15 +270,15 @@ Result<std::optional<RecordedHand>> CsvImport::hand_of(const HandColumns& column
   std::size_t asked = 0;
   bool finite = true;
   for (std::size_t joint = has_palm_ ? 0 : 1; joint < kJointCount; ++joint) {
-    std::array<double, kNumbers> numbers{};
-    for (std::size_t number = 0; number < kNumbers; ++number) {
+    std::array<double, kJointNumbers> numbers{};
+    for (std::size_t number = 0; number < kJointNumbers; ++number) {
       const std::size_t column = columns.at[joint][number];
       if (column == kNone) continue;
       ++asked;
       const std::string_view text = cell(column);
       if (text.empty()) {
         ++empty;
-      } else if (!parse(text, numbers[number])) {
+      } else if (!parse_word(text, numbers[number])) {
         return wrong(ErrorCode::bad_value, fmt::format("column {}: expected a number, found {}",
                                                        column + 1, quoted(text)));
       }
@@ -307,7 +299,8 @@ Result<std::optional<RecordedHand>> CsvImport::hand_of(const HandColumns& column
   if (!has_palm_) hand.pose[Joint::palm] = palm_from_middle_metacarpal(hand.pose);
   if (columns.confidence != kNone) {
     double confidence = 0.0;
-    if (parse(cell(columns.confidence), confidence) && confidence >= 0.0 && confidence <= 1.0) {
+    if (parse_word(cell(columns.confidence), confidence) && confidence >= 0.0 &&
+        confidence <= 1.0) {
       hand.pose.confidence = confidence;
     }
   }

@@ -10,6 +10,7 @@
 #include "byte_source.h"
 #include "hand_intake.h"
 #include "nade/io/recording.h"
+#include "recording_limits.h"
 #include "warnings.h"
 
 namespace nade::io {
@@ -31,11 +32,10 @@ class CsvImport {
 
  private:
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-  static constexpr std::size_t kNumbers = 8;  ///< x y z, x y z w, radius
 
   /// Where the numbers of a hand are in a row.
   struct HandColumns {
-    std::array<std::array<std::size_t, kNumbers>, kJointCount> at{};
+    std::array<std::array<std::size_t, kJointNumbers>, kJointCount> at{};
     std::size_t valid = kNone;
     std::size_t confidence = kNone;
     bool any = false;

@@ -4,15 +4,12 @@
 #include <string_view>
 #include <utility>
 
-#include "nade/io/mesh_file.h"
-#include "recording_limits.h"
+#include "csv_columns.h"
 #include "recording_names.h"
 
 namespace nade::io {
 namespace {
 
-constexpr std::array<std::string_view, kJointNumbers> kNumberNames{"px", "py", "pz", "qx",
-                                                                   "qy", "qz", "qw", "radius"};
 constexpr std::array<std::string_view, 7> kContactNames{"px", "py", "pz",   "nx",
                                                         "ny", "nz", "depth"};
 
@@ -23,16 +20,12 @@ void append(fmt::memory_buffer& out, fmt::format_string<Values...> form, Values&
 
 }  // namespace
 
-bool names_a_table(const std::string& path) {
-  const std::string ending = ending_of(path);
-  return ending == ".csv" ||
-         (ending == ".gz" && ending_of(path.substr(0, path.size() - ending.size())) == ".csv");
-}
+bool names_a_table(const std::string& path) { return content_ending_of(path) == ".csv"; }
 
 void append_csv_names(fmt::memory_buffer& out) {
   append(out, "time_ns,hand,status,confidence");
   for (std::size_t joint = 0; joint < kJointCount; ++joint) {
-    for (const std::string_view number : kNumberNames) {
+    for (const std::string_view number : kJointNumberNames) {
       append(out, ",{}_{}", name_of(joint_at(joint)), number);
     }
   }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <system_error>
 
+#include "nade/io/plain_text.h"
 #include "whole_file.h"
 
 // Based on: Berners-Lee et al. RFC 3986. 2005 (percent-encoding, schemes).
@@ -121,9 +122,7 @@ std::string shortened(std::string_view text) {
   std::size_t length = std::min(text.size(), kMost);
   // Not within a letter of several bytes.
   while (length < text.size() && length > 0 && (text[length] & 0xC0) == 0x80) --length;
-  std::string line(text.substr(0, length));
-  std::replace_if(
-      line.begin(), line.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, ' ');
+  const std::string line = plain_text(text.substr(0, length));
   return length < text.size() ? line + "…" : line;
 }
 

@@ -253,6 +253,11 @@ Status OutputFile::finish() {
   return ok_status();
 }
 
+std::string content_ending_of(const std::string& path) {
+  const std::string ending = ending_of(path);
+  return ending == ".gz" ? ending_of(std::filesystem::path(path).stem().string()) : ending;
+}
+
 Status write_whole(const std::string& path, std::string_view text) {
   Result<OutputFile> file = OutputFile::create(path, OutputFile::encoding_of(path));
   if (!file) return file.error();

@@ -43,6 +43,10 @@ class OutputFile {
   std::unique_ptr<Impl> impl_;
 };
 
+/// The ending of a name, without a ".gz" behind it, in small letters: ".csv" of "A.CSV.gz". Empty
+/// where there is none.
+[[nodiscard]] std::string content_ending_of(const std::string& path);
+
 /// Writes a whole text, gzip where the name ends in ".gz"; "-" is standard output.
 [[nodiscard]] Status write_whole(const std::string& path, std::string_view text);
 
