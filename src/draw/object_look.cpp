@@ -282,7 +282,8 @@ DressedObject dress_plain(const std::string& path, const TriangleSoup& soup) {
 Result<DressedObject> dress_file(const std::string& path, const LoadedObject& object) {
   const std::string ending = ending_of(path);
   if (ending == ".glb" || ending == ".gltf") return load_gltf_meshes(path);
-  const TriangleSoup soup = object.soup.value_or(TriangleSoup{});
+  static const TriangleSoup kNone;
+  const TriangleSoup& soup = object.soup ? *object.soup : kNone;
   return ending == ".obj" || ending == ".ply" ? dress_plain(path, soup) : dress_soup(soup);
 }
 

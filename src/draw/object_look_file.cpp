@@ -94,12 +94,13 @@ void read_vertices(const aiMesh& from, DrawnMesh& mesh) {
 void append(const aiMesh& from, Source& source) {
   DrawnMesh mesh;
   read_vertices(from, mesh);
-  TriangleSoup soup{mesh.positions, {}};
+  TriangleSoup soup{std::move(mesh.positions), {}};
   for (unsigned f = 0; f < from.mNumFaces; ++f) {
     const aiFace& face = from.mFaces[f];
     // One that is too winding is missing then, which the count tells.
     if (!io::add_polygon(soup, {face.mIndices, face.mNumIndices})) return;
   }
+  mesh.positions = std::move(soup.vertices);
   mesh.triangles = std::move(soup.triangles);
   if (mesh.triangles.empty()) return;
   if (from.mMaterialIndex < source.scene.mNumMaterials) {
