@@ -2,7 +2,7 @@
 # neither installed nor fetched again.
 .NOTPARALLEL:
 .DEFAULT_GOAL := help
-.PHONY: help demo test build bench asan fuzz tsan test-headset tidy format format-check install clean setup
+.PHONY: help demo test check build bench asan fuzz tsan test-headset tidy format format-check install clean setup
 
 PREFIX ?= /usr/local
 SECONDS ?= 60
@@ -15,8 +15,11 @@ demo: setup ## Strokes on three objects, corrected and measured: a table under b
 	@scripts/build release nade_cli nade_share
 	@scripts/demo
 
-test: setup ## Everything that has to hold: style, builds, tests, sanitizers
+test: setup ## Style, the optimised build, and all its tests
 	@scripts/test
+
+check: setup ## What takes longer: clang-tidy, sanitizers, and Debian 13 with g++ 14 and a headset (root)
+	@scripts/check
 
 build: setup ## The library and the command line, optimised, in build/release
 	@scripts/build release
