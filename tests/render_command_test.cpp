@@ -279,4 +279,13 @@ TEST_F(RenderCommand, PairsToBeComparedBlind) {
   EXPECT_EQ(nade("figure -o no.png --count 3").status, 2);
 }
 
+TEST_F(RenderCommand, PairsAsFilms) {
+  if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
+  const Ran ran = nade(
+      "figure --pairs asked --films 0.1 --count 1 --scenes none --filter 'plane line 0.1 m/s'");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_GT(read_file(path("asked/pair_001.mp4")).size(), 10000U);
+  EXPECT_NE(read_file(path("asked/index.html")).find("pair_001.mp4"), std::string::npos);
+}
+
 }  // namespace

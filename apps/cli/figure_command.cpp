@@ -36,6 +36,7 @@ struct FigureArguments {
   std::string pairs;  ///< a folder; empty: a sheet is drawn
   std::size_t count = 40;
   std::uint64_t seed = 1;
+  double film_s = 0.0;
   std::string filter;
   std::string scenes;
 };
@@ -231,8 +232,12 @@ Status run_pairs(const FigureArguments& arguments) {
   }
   Result<std::vector<std::shared_ptr<const Scene>>> scenes = chosen_scenes(arguments.scenes);
   if (!scenes) return scenes.error();
-  PairsPlan plan{suite_cases({.scenes = std::move(scenes).value()}), std::move(chosen).value(),
-                 arguments.count, arguments.seed, arguments.pairs};
+  PairsPlan plan{suite_cases({.scenes = std::move(scenes).value()}),
+                 {std::move((*chosen)[0]), std::move((*chosen)[1])},
+                 arguments.count,
+                 arguments.seed,
+                 arguments.film_s,
+                 arguments.pairs};
   std::erase_if(plan.cases, [&](const SuiteCase& suite_case) {
     return suite_case.name().find(arguments.filter) == std::string::npos;
   });
@@ -290,6 +295,12 @@ void add_pairs_options(CLI::App& command, FigureArguments& arguments) {
                   "of the cases, the moments and which is left (default 1)")
       ->type_name("N")
       ->transform(whole_number())
+      ->needs(pairs);
+  command
+      .add_option("--films", arguments.film_s,
+                  "also films of so long a time around each moment (needs ffmpeg)")
+      ->type_name("S")
+      ->check(number_in(0.1, 60.0))
       ->needs(pairs);
   command.add_option("--filter", arguments.filter, "only bench cases with this in their names")
       ->type_name("TEXT")

@@ -9,14 +9,16 @@
 #include <iterator>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "console.h"
 #include "nade/draw/camera.h"
+#include "nade/draw/film.h"
 #include "nade/eval/noise.h"
-#include "nade/eval/shapes.h"
 #include "nade/io/csv.h"
 #include "nade/io/output_file.h"
+#include "played_case.h"
 #include "sheet_canvas.h"
 
 namespace nade::cli {
@@ -28,11 +30,12 @@ constexpr int kInsetWidth = 256;
 constexpr int kInsetHeight = 192;
 constexpr int kGap = 16;
 constexpr int kHeader = kInsetHeight + 2 * kGap;
-constexpr std::size_t kProbeEvery = 3;  // frames between those that are looked at for pressing
+constexpr int kSheetWidth = 2 * kPanelWidth + 3 * kGap;
+constexpr int kViews = 3;
+constexpr double kFilmRate = 30.0;
+constexpr std::size_t kMomentsOfView = 8;  ///< of a film, that its view is chosen by
 constexpr double kView = 26.0 * kDegree;
 constexpr double kAspect = static_cast<double>(kPanelWidth) / kPanelHeight;
-
-using Hands = std::array<std::optional<draw::StagedHand>, 2>;
 
 /// One question.
 struct Pair {
@@ -41,77 +44,8 @@ struct Pair {
   std::array<std::size_t, 2> shown{0, 1};  ///< methods: left and right
 };
 
-/// A case, played by both methods.
-struct PlayedCase {
-  SuiteObject object;
-  CaseRecording tracked;
-  std::array<CorrectedRecording, 2> corrected;
-  std::array<Method, 2> drawn{};  ///< which skin it has
-};
-
-Result<PlayedCase> play(const PairsPlan& plan, const SuiteCase& suite_case,
-                        const DrawnHands& hands) {
-  Result<SuiteObject> object = load_case_object(suite_case);
-  if (!object) return object.error();
-  Result<CaseRecording> tracked = make_recording(suite_case, *object);
-  if (!tracked) return tracked.error();
-  PlayedCase played{std::move(object).value(), std::move(tracked).value(), {}, {}};
-  for (std::size_t m = 0; m < plan.methods.size(); ++m) {
-    played.corrected[m] = correct(played.tracked, played.object, hands, plan.methods[m]);
-    played.drawn[m] = method_from_name(plan.methods[m].name).value_or(Method::none);
-  }
-  return played;
-}
-
-/// Frames in which tracked skin is pressed in, a thinned list.
-std::vector<std::size_t> pressing_frames(const PlayedCase& played, const DrawnHands& hands) {
-  std::vector<std::size_t> pressing;
-  ObjectPlayer player(played.tracked, played.object);
-  for (std::size_t i = 0; i < played.tracked.frames.size(); i += kProbeEvery) {
-    const RecordedFrame& frame = played.tracked.frames[i];
-    for (std::size_t side = 0; side < 2; ++side) {
-      const auto& hand = frame.hands[side];
-      if (!hand || !played.corrected[0].frames[i].hands[side]) continue;
-      MetricsMeter meter(hands.meshes[side], {hand_scale(hands.meshes[side], hand->pose)});
-      if (meter.add(frame.time_ns, hand->pose, hand->pose, player.at(i)).penetration_mm) {
-        pressing.push_back(i);
-        break;
-      }
-    }
-  }
-  return pressing;
-}
-
-Hands hands_of(const PlayedCase& played, std::size_t frame, std::size_t method,
-               const DrawnHands& drawn) {
-  Hands hands;
-  for (std::size_t side = 0; side < 2; ++side) {
-    const auto& tracked = played.tracked.frames[frame].hands[side];
-    const auto& corrected = played.corrected[method].frames[frame].hands[side];
-    if (!tracked || !corrected) continue;
-    hands[side] = draw::StagedHand{tracked->pose,
-                                   corrected->pose,
-                                   {},
-                                   hand_scale(drawn.meshes[side], tracked->pose),
-                                   played.drawn[method]};
-  }
-  return hands;
-}
-
-/// The object as it is in a frame; of one that stretches another mesh.
-Result<std::optional<LoadedObject>> stretched_object(const PlayedCase& played, std::size_t frame) {
-  const bool rests =
-      frame >= played.tracked.states.size() || played.tracked.states[frame].stretch == Vec3::Ones();
-  if (rests || !played.object.loaded.soup) return std::optional<LoadedObject>{};
-  MeshFile shape{stretched(*played.object.loaded.soup, played.tracked.states[frame].stretch), {}};
-  Result<LoadedObject> loaded = shape_object(played.object.loaded.spec, std::move(shape));
-  if (!loaded) return loaded.error();
-  return std::optional<LoadedObject>(std::move(loaded).value());
-}
-
 /// How many joints, tracked and drawn, an eye sees past the object.
-std::size_t joints_seen(const Vec3& eye, const std::array<Hands, 2>& by_method,
-                        const Object& object) {
+std::size_t joints_seen(const Vec3& eye, const HandsByMethod& by_method, const Object& object) {
   std::size_t seen = 0;
   const auto look = [&](const HandPose& hand) {
     for (const Pose& joint : hand.joints) {
@@ -130,17 +64,20 @@ std::size_t joints_seen(const Vec3& eye, const std::array<Hands, 2>& by_method,
 }
 
 /// Three-quarter and side from about the thumb's side, and from behind the wrist as its owner sees
-/// it, each from where the object hides least of the hand. The same for both methods.
-std::array<draw::Camera, 3> cameras_of(const std::array<Hands, 2>& by_method,
-                                       const Object& object) {
+/// it, each from where the object, as it is in the first of the moments, hides least of the hand.
+/// The same for both methods.
+std::array<draw::Camera, kViews> cameras_of(std::span<const HandsByMethod> moments,
+                                            const Object& object) {
   Eigen::AlignedBox3d box;
   const HandPose* hand = nullptr;
-  for (const Hands& hands : by_method) {
-    for (const auto& staged : hands) {
-      if (!staged) continue;
-      hand = &staged->tracked;
-      for (const Pose& joint : staged->tracked.joints) box.extend(joint.position);
-      for (const Pose& joint : staged->corrected.joints) box.extend(joint.position);
+  for (const HandsByMethod& by_method : moments) {
+    for (const Hands& hands : by_method) {
+      for (const auto& staged : hands) {
+        if (!staged) continue;
+        if (!hand || &by_method == moments.data()) hand = &staged->tracked;
+        for (const Pose& joint : staged->tracked.joints) box.extend(joint.position);
+        for (const Pose& joint : staged->corrected.joints) box.extend(joint.position);
+      }
     }
   }
   const Quat palm = (*hand)[Joint::palm].rotation;
@@ -152,7 +89,8 @@ std::array<draw::Camera, 3> cameras_of(const std::array<Hands, 2>& by_method,
     std::optional<std::size_t> most;
     for (const Vec3& out : outs) {
       const Vec3 from = box.center() + distance_m * out.normalized();
-      const std::size_t seen = joints_seen(from, by_method, object);
+      std::size_t seen = 0;
+      for (const HandsByMethod& by_method : moments) seen += joints_seen(from, by_method, object);
       if (most && seen <= *most) continue;
       most = seen;
       eye = from;
@@ -168,21 +106,22 @@ std::array<draw::Camera, 3> cameras_of(const std::array<Hands, 2>& by_method,
       best({behind + 0.7 * back, behind + 0.2 * back, behind - 0.7 * back, behind + thumb})};
 }
 
+int sheet_height(std::size_t views) {
+  return kHeader + static_cast<int>(views) * (kPanelHeight + kGap);
+}
+
 /// A pair's sheet: two columns, a row a view; above them, small, the tracked hand.
-draw::Image draw_sheet(const Pair& pair, const std::string& name,
-                       const std::array<Hands, 2>& by_method, const Object& object,
-                       Studio& studio) {
+draw::Image draw_sheet(const Pair& pair, const std::string& name, const HandsByMethod& by_method,
+                       std::span<const draw::Camera> views, Studio& studio) {
   const draw::Color ink(0.015F, 0.02F, 0.03F);
-  const std::array<draw::Camera, 3> cameras = cameras_of(by_method, object);
-  SheetCanvas canvas(2 * kPanelWidth + 3 * kGap,
-                     kHeader + static_cast<int>(cameras.size()) * (kPanelHeight + kGap));
+  SheetCanvas canvas(kSheetWidth, sheet_height(views.size()));
   draw::StageFrame frame;
   frame.hands = by_method.front();
   frame.shown = draw::Shown::tracked;
   const auto take = [&](const draw::Camera& camera, int width, int height) {
     return studio.renderer->picture(studio.stage.arrange(frame), camera, width, height);
   };
-  canvas.paste(take(cameras.front(), kInsetWidth, kInsetHeight), kGap, kGap);
+  canvas.paste(take(views.front(), kInsetWidth, kInsetHeight), kGap, kGap);
   const float beside = kInsetWidth + 3.0F * kGap;
   canvas.text({beside, 24.0F}, name, 34.0F, ink);
   canvas.text({beside, 76.0F}, "Left here: where the person's hand really is.", 26.0F, ink);
@@ -192,27 +131,70 @@ draw::Image draw_sheet(const Pair& pair, const std::string& name,
   for (std::size_t column = 0; column < 2; ++column) {
     frame.hands = by_method[pair.shown[column]];
     const int left = kGap + static_cast<int>(column) * (kPanelWidth + kGap);
-    for (std::size_t row = 0; row < cameras.size(); ++row) {
-      canvas.paste(take(cameras[row], kPanelWidth, kPanelHeight), left,
-                   kHeader + static_cast<int>(row) * (kPanelHeight + kGap));
+    for (std::size_t row = 0; row < views.size(); ++row) {
+      canvas.paste(take(views[row], kPanelWidth, kPanelHeight), left, sheet_height(row));
     }
   }
   return canvas.image();
 }
 
+/// The frames that a film of so long a time around one shows.
+std::vector<std::size_t> film_frames(const std::vector<RecordedFrame>& frames, std::size_t middle,
+                                     double film_s) {
+  const std::int64_t from_ns = std::max(
+      frames.front().time_ns, frames[middle].time_ns - static_cast<std::int64_t>(0.5e9 * film_s));
+  std::vector<std::size_t> shown;
+  std::size_t next = 0;
+  for (int i = 0; i < static_cast<int>(film_s * kFilmRate); ++i) {
+    const std::int64_t time_ns = from_ns + static_cast<std::int64_t>(1e9 / kFilmRate * i);
+    while (next < frames.size() && frames[next].time_ns < time_ns) ++next;
+    if (next == frames.size()) break;
+    shown.push_back(next);
+  }
+  return shown;
+}
+
+/// Films the time around a pair's moment, from its first view.
+Status draw_film(const std::string& path, double film_s, const Pair& pair, const std::string& name,
+                 const PlayedCase& played, std::size_t middle, const DrawnHands& hands,
+                 Studio& studio) {
+  const std::vector<std::size_t> frames = film_frames(played.tracked.frames, middle, film_s);
+  std::vector<HandsByMethod> moments{hands_in(played, middle, hands)};
+  for (std::size_t i = 0; i < frames.size(); i += 1 + frames.size() / kMomentsOfView) {
+    moments.push_back(hands_in(played, frames[i], hands));
+  }
+  ObjectPlayer player(played.tracked, played.object);
+  const draw::Camera view = cameras_of(moments, player.at(middle)).front();
+  Result<draw::FilmWriter> film =
+      draw::FilmWriter::create(path, {kSheetWidth, sheet_height(1), kFilmRate});
+  if (!film) return film.error();
+  CaseStager stager(played, studio.stage);
+  for (const std::size_t frame : frames) {
+    const Status set = stager.set_frame(frame);
+    if (!set) return set;
+    const Status added =
+        film->add(draw_sheet(pair, name, hands_in(played, frame, hands), {&view, 1}, studio));
+    if (!added) return added;
+  }
+  return film->finish();
+}
+
 std::string name_of_pair(std::size_t index) { return fmt::format("pair_{:03}", index + 1); }
 
-std::string page_of(std::size_t pairs) {
+std::string page_of(const PairsPlan& plan, std::size_t pairs) {
   std::string html =
       "<!doctype html>\n<meta charset=\"utf-8\">\n<title>Which hand rests?</title>\n"
-      "<style>body{font:18px sans-serif;max-width:1330px;margin:auto}img{width:100%}"
+      "<style>body{font:18px sans-serif;max-width:1330px;margin:auto}img,video{width:100%}"
       "label{margin-right:3em}</style>\n"
       "<p>Two pictures of one moment. Which looks more like a hand that rests on the object, or "
       "strokes it? The small picture shows where the person's hand really is.</p>\n";
   auto out = std::back_inserter(html);
   for (std::size_t i = 0; i < pairs; ++i) {
     const std::string name = name_of_pair(i);
-    fmt::format_to(out, "<h2>{0}</h2>\n<img src=\"{0}.png\" alt=\"{0}\">\n<p>", name);
+    fmt::format_to(out, "<h2>{0}</h2>\n<img src=\"{0}.png\" alt=\"{0}\">\n", name);
+    if (plan.film_s > 0.0)
+      fmt::format_to(out, "<video src=\"{0}.mp4\" controls loop></video>\n", name);
+    html += "<p>";
     for (const char* const answer : {"left", "right", "tie"}) {
       fmt::format_to(out, "<label><input type=\"radio\" name=\"{0}\" value=\"{1}\">{1}</label>",
                      name, answer);
@@ -242,7 +224,7 @@ Status write_texts(const PairsPlan& plan, const std::vector<Pair>& pairs) {
   }
   const std::filesystem::path folder(plan.folder);
   for (const auto& [name, text] : {std::pair("answers.csv", answers), std::pair("key.csv", key),
-                                   std::pair("index.html", page_of(pairs.size()))}) {
+                                   std::pair("index.html", page_of(plan, pairs.size()))}) {
     const Status written = write_whole((folder / name).string(), text);
     if (!written.ok()) return written;
   }
@@ -264,7 +246,7 @@ std::vector<std::size_t> shuffled(std::size_t count, Random& random) {
 Result<std::optional<Pair>> draw_case(const PairsPlan& plan, const SuiteCase& suite_case,
                                       const std::string& name, const DrawnHands& hands,
                                       Studio& studio, Random& random) {
-  const Result<PlayedCase> played = play(plan, suite_case, hands);
+  const Result<PlayedCase> played = play_case(plan.methods, suite_case, hands);
   if (!played) return played.error();
   const std::vector<std::size_t> pressing = pressing_frames(*played, hands);
   if (pressing.empty()) return std::optional<Pair>{};
@@ -273,20 +255,20 @@ Result<std::optional<Pair>> draw_case(const PairsPlan& plan, const SuiteCase& su
   Pair pair{&suite_case, 1e-9 * static_cast<double>(played->tracked.frames[frame].time_ns -
                                                     played->tracked.frames.front().time_ns)};
   if (random.uniform() < 0.5) std::swap(pair.shown[0], pair.shown[1]);
-  const Result<std::optional<LoadedObject>> other = stretched_object(*played, frame);
-  if (!other) return other.error();
-  const Placement placement = played->tracked.states.empty()
-                                  ? played->tracked.placement
-                                  : played->tracked.states[frame].placement;
-  const Status set = studio.stage.set_object(*other ? **other : played->object.loaded, placement);
+  CaseStager stager(*played, studio.stage);
+  const Status set = stager.set_frame(frame);
   if (!set.ok()) return set.error();
   ObjectPlayer player(played->tracked, played->object);
-  const draw::Image sheet = draw_sheet(
-      pair, name, {hands_of(*played, frame, 0, hands), hands_of(*played, frame, 1, hands)},
-      player.at(frame), studio);
-  const Status saved =
-      draw::save_png((std::filesystem::path(plan.folder) / (name + ".png")).string(), sheet);
+  const HandsByMethod shown = hands_in(*played, frame, hands);
+  const std::array<draw::Camera, kViews> views = cameras_of({&shown, 1}, player.at(frame));
+  const std::string path = (std::filesystem::path(plan.folder) / name).string();
+  const Status saved = draw::save_png(path + ".png", draw_sheet(pair, name, shown, views, studio));
   if (!saved.ok()) return saved.error();
+  if (plan.film_s > 0.0) {
+    const Status filmed =
+        draw_film(path + ".mp4", plan.film_s, pair, name, *played, frame, hands, studio);
+    if (!filmed.ok()) return filmed.error();
+  }
   return std::optional<Pair>(pair);
 }
 
