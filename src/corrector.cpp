@@ -170,6 +170,12 @@ std::optional<Method> method_from_name(std::string_view name) {
   return static_cast<Method>(found - kMethodNames.begin());
 }
 
+std::array<Vec3, kJointCount> no_velocity() noexcept {
+  std::array<Vec3, kJointCount> velocity;
+  velocity.fill(Vec3::Zero());
+  return velocity;
+}
+
 CorrectorOptions paper_literal() {
   CorrectorOptions options;
   options.method = Method::paper;

@@ -10,6 +10,7 @@
 #include "nade/correction.h"
 #include "nade/fingers.h"
 #include "nade/flesh.h"
+#include "nade/scene.h"
 #include "nade/settle_options.h"
 #include "nade/status.h"
 
@@ -72,6 +73,24 @@ struct CorrectorOptions {
 /// one value for every joint.
 [[nodiscard]] std::optional<SkinDepths> believable_radii(const HandPose& hand) noexcept;
 
+/// Skin of one bone that touches an object; in the tracked hand's frame.
+struct SkinContact {
+  ObjectId object = 0;  ///< of the scene; of an object that was given alone, its `instance`
+  /// A phalanx by the joint at its base, as `index_intermediate`; `thumb_metacarpal`; or `palm`,
+  /// for all the rest.
+  Joint bone = Joint::palm;
+  Vec3 point = Vec3::Zero();         ///< on the surface
+  Vec3 normal = Vec3::UnitY();       ///< unit, out of the solid
+  double depth_m = 0.0;              ///< of the person's skin in the object, >= 0: how it presses
+  Vec3 velocity_mps = Vec3::Zero();  ///< of the drawn skin there against the object
+};
+
+/// The phalanges, the thumb's metacarpal and the palm.
+inline constexpr std::size_t kMostSkinContacts = 16;
+
+/// A velocity of 0 for each joint.
+[[nodiscard]] std::array<Vec3, kJointCount> no_velocity() noexcept;
+
 /// What to draw, and why; in the tracked hand's frame.
 struct CorrectedHand {
   HandPose pose;  ///< to draw: bit for bit the tracked one where there is nothing to correct
@@ -79,6 +98,11 @@ struct CorrectedHand {
   std::optional<HandFault> fault{};  ///< why a hand that was passed is `untracked`
   Contacts contacts{};  ///< of each part that the person presses in; none of the others
   std::array<double, kDigitCount> ray_turn_rad{};  ///< of method paper: the fingers' turned rays
+  /// Of each bone that touches at most one; by method paper of the palm and the fingertips.
+  std::array<SkinContact, kMostSkinContacts> skin_contacts{};
+  std::size_t skin_contact_count = 0;
+  /// Of the drawn joints, in the axes of the tracked hand's frame; 0 in a hand's first frame.
+  std::array<Vec3, kJointCount> velocity_mps = no_velocity();
 };
 
 /// Corrects one hand, frame by frame. Keep one for each hand; it is the only thing with memory. One
@@ -111,6 +135,15 @@ class HandCorrector {
   /// gives the same answer and changes nothing; another hand at the same time counts as a frame of
   /// a millisecond later. Times may be whole milliseconds, and off by a few.
   const CorrectedHand& update(const HandPose& tracked, const Object& object,
+                              std::int64_t time_ns) noexcept;
+
+  /// The same for a hand that may touch any object of a scene, each of which has its own feel. One
+  /// object alone in a scene gives the same hand, bit for bit, as it does by itself. Objects out of
+  /// reach change nothing, bit for bit, where one was within reach when the hand was found. What
+  /// moves beside the hand takes nothing from what is known of the object that it touches; that one
+  /// takes it along. An object that is added, removed or put elsewhere under the hand lets it come
+  /// back slowly.
+  const CorrectedHand& update(const HandPose& tracked, const Scene& scene,
                               std::int64_t time_ns) noexcept;
 
   /// The latest correction on a newer pose of the same hand, as for a picture's late update: each
