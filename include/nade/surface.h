@@ -42,6 +42,11 @@ struct SurfaceHint {
 struct SurfaceBounds {
   Vec3 low = Vec3::Zero();
   Vec3 high = Vec3::Zero();
+
+  /// How far a point is outside; 0 within.
+  [[nodiscard]] double distance(const Vec3& point) const {
+    return (point - point.cwiseMax(low).cwiseMin(high)).norm();
+  }
 };
 
 /// A solid's surface, in its own frame. Implement it to bring an object of your own (a height
@@ -64,7 +69,7 @@ class Surface {
   /// that keep theirs.
   [[nodiscard]] virtual std::uint64_t shape() const noexcept { return 0; }
 
-  /// A box that all of the solid is in, finite; none where there is no such box, or nobody knows.
+  /// A box that all of the surface is in, finite; none where there is no such box, or nobody knows.
   /// Only a `Scene` asks: of what has none it can never tell that it is out of reach.
   [[nodiscard]] virtual std::optional<SurfaceBounds> bounds() const noexcept {
     return std::nullopt;
@@ -88,6 +93,7 @@ class SphereSurface final : public Surface {
   [[nodiscard]] std::uint64_t shape() const noexcept override {
     return std::bit_cast<std::uint64_t>(radius_);
   }
+  [[nodiscard]] std::optional<SurfaceBounds> bounds() const noexcept override;
   [[nodiscard]] std::optional<RayHit> first_hit(const Ray& ray) const noexcept override;
   [[nodiscard]] std::optional<SurfacePoint> closest_point(
       const Vec3& query, double max_distance, SurfaceHint& hint) const noexcept override;

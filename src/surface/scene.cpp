@@ -13,8 +13,9 @@ Scene::Scene() : number_(new_shape()) {}
 bool Scene::add(ObjectId id, const Surface& surface, const Placement& placement,
                 const SettleOptions& feel) {
   NADE_ASSERT(check_options(feel).ok());
-  if (!index_.try_emplace(id, members_.size()).second) return false;
+  if (index_.contains(id)) return false;
   const Member added{id, Object(surface, placement, new_shape()), feel, surface.bounds()};
+  index_.emplace(id, members_.size());
   members_.push_back(added);
   balls_.push_back(ball_of(added));
   ++changes_;
@@ -78,11 +79,11 @@ Scene::Member* Scene::member(ObjectId id) noexcept {
 
 Scene::Ball Scene::ball_of(const Member& member) noexcept {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  // nothing is within that
   const Placement& placement = member.object.placement();
   const Pose& pose = placement.pose;
-  // What is nowhere is within no one's reach.
   if (placement.scale == 0.0 || !pose.position.allFinite() || !pose.rotation.coeffs().allFinite()) {
-    return {Vec3::Zero(), -kInfinity};
+    return {Vec3::Zero(), kNone};
   }
   if (!member.bounds) return {Vec3::Zero(), kInfinity};
   const auto& [low, high] = *member.bounds;
