@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <variant>
 
 #include "nade/contact.h"
 #include "nade/correction.h"
@@ -170,19 +171,36 @@ class HandCorrector {
 
   struct Question {
     HandPose tracked;
-    ObjectIdentity object;
+    ObjectIdentity object;  ///< of a scene: its number and no surface
     Placement placement;
-    std::uint64_t shape = 0;
+    std::uint64_t shape = 0;    ///< of a scene: those of what is near
+    std::uint64_t changes = 0;  ///< of a scene: how often it was changed
     std::int64_t time_ns = 0;
     bool operator==(const Question&) const = default;
   };
 
-  void correct(const HandPose& tracked, const Object& object, std::int64_t time_ns) noexcept;
+  /// What was drawn in a frame, and at which object.
+  struct Shown {
+    HandPose drawn;
+    ObjectIdentity object;
+    Placement placement;
+    std::int64_t time_ns = 0;
+  };
+
+  /// What may be touched.
+  using Touchable = std::variant<const Object*, const Scene*>;
+
+  void answer(const HandPose& tracked, Touchable objects, std::int64_t time_ns) noexcept;
+  void correct(const HandPose& tracked, Touchable objects, std::int64_t time_ns) noexcept;
+  void add_contact(const SkinContact& contact, std::size_t place) noexcept;
+  void add_part_contacts() noexcept;
+  void measure_motion(const Object& object, bool is_of_scene, std::int64_t time_ns) noexcept;
   void start_frame(const HandPose& tracked, std::int64_t time_ns) noexcept;
   void follow_length(double length_m) noexcept;
   void correct_by_paper(const HandPose& tracked, const Object& object,
                         std::int64_t time_ns) noexcept;
-  void follow_proxy(const HandPose& tracked, const Object& object, std::int64_t time_ns) noexcept;
+  void follow_proxy(const HandPose& tracked, const Object& object, bool is_of_scene,
+                    std::int64_t time_ns) noexcept;
   void forget_proxies() noexcept;
   [[nodiscard]] const HandFlesh& flesh_of(Handedness side) const noexcept;
   [[nodiscard]] SkinDepths skin_of(const HandPose& tracked) const noexcept;
@@ -194,6 +212,9 @@ class HandCorrector {
   ObjectIdentity met_;                                 ///< that it is of
   std::array<std::unique_ptr<ProxyHand>, 2> proxies_;  ///< method nade; by index_of(Handedness)
   CorrectedHand result_;
+  std::unique_ptr<NearObjects> near_;
+  std::array<std::size_t, kMostSkinContacts> touched_{};  ///< whose contacts those of `result_` are
+  std::optional<Shown> shown_;
   std::optional<Question> answered_;  ///< that `result_` is the answer to
   std::optional<Frame> last_;
   double hand_length_m_ = 0.0;      ///< mean over the last few seconds: bones do not grow
