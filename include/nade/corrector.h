@@ -99,7 +99,8 @@ struct CorrectedHand {
   std::optional<HandFault> fault{};  ///< why a hand that was passed is `untracked`
   Contacts contacts{};  ///< of each part that the person presses in; none of the others
   std::array<double, kDigitCount> ray_turn_rad{};  ///< of method paper: the fingers' turned rays
-  /// Of each bone that touches at most one; by method paper of the palm and the fingertips.
+  /// Of each bone that touches at most one, and none while what was let go comes back; by method
+  /// paper of the palm and the fingertips.
   std::array<SkinContact, kMostSkinContacts> skin_contacts{};
   std::size_t skin_contact_count = 0;
   /// Of the drawn joints, in the axes of the tracked hand's frame; 0 in a hand's first frame.
