@@ -1,6 +1,6 @@
 // Time of one corrected hand-frame: HandCorrector::update over a stroke with the palm pressed 20
 // and 30 mm into each object, and of the frame in which a hand is found there; at the end how it
-// grows from a thousand triangles to a million.
+// grows from a thousand triangles to a million, and with a thousand objects beside.
 //     corrector_bench
 // Answers are checked first; the exit status is 1 where one is wrong.
 
@@ -18,6 +18,8 @@
 #include "nade/eval/shapes.h"
 #include "nade/eval/synth.h"
 #include "nade/io/object_file.h"
+#include "nade/scene.h"
+#include "nade/solids.h"
 #include "stopwatch.h"
 #include "support/meshes.h"
 
@@ -128,6 +130,80 @@ Result<LoadedObject> ball(std::uint32_t sectors, std::uint32_t rings) {
                                {{"side", {kRadius_m * (aside * Vec3::UnitY()), aside}}}});
 }
 
+/// Far objects in a scene; half of them move, and are placed anew in each frame.
+constexpr ObjectId kFarObjects = 1000;
+
+/// A frame on an object with and without a thousand far ones in the scene, median; and whether the
+/// hand was the same, bit for bit.
+struct CrowdTimes {
+  double alone_ns = 0.0;
+  double among_ns = 0.0;
+  double placing_ns = 0.0;
+  bool same = true;
+};
+
+CrowdTimes time_crowd(const Row& row, const Object& object, const StrokeFrames& frames) {
+  const BoxSurface box({0.2, 0.1, 0.3});
+  Scene one;
+  Scene many;
+  for (Scene* const scene : {&one, &many}) scene->add(0, object.surface(), object.placement());
+  const auto far = [](ObjectId id, double time_s) {
+    const double angle = 0.37 * static_cast<double>(id) + time_s;
+    const double away_m = 2.0 + 0.01 * static_cast<double>(id);
+    return Placement{{{away_m * std::cos(angle), 0.3 * std::sin(angle), away_m * std::sin(angle)},
+                      Quat(Eigen::AngleAxisd(angle, Vec3::UnitY()))},
+                     1.0};
+  };
+  for (ObjectId id = 1; id <= kFarObjects; ++id) many.add(id, box, far(id, 0.0));
+  HandCorrector alone(row.options);
+  HandCorrector among(row.options);
+  bench::Stopwatch alone_watch(frames.size());
+  bench::Stopwatch among_watch(frames.size());
+  bench::Stopwatch placing_watch(frames.size());
+  std::vector<Placement> places(kFarObjects / 2);
+  CrowdTimes times;
+  for (const TimedHand& frame : frames) {
+    const double time_s = 1e-9 * static_cast<double>(frame.time_ns);
+    for (ObjectId id = 1; id <= places.size(); ++id) places[id - 1] = far(id, time_s);
+    placing_watch.measure([&] {
+      for (ObjectId id = 1; id <= places.size(); ++id) many.place(id, places[id - 1]);
+    });
+    const auto measure_alone = [&] {
+      alone_watch.measure([&] { (void)alone.update(frame.pose, one, frame.time_ns); });
+    };
+    // By turns, since the second finds the object's triangles in the cache.
+    const bool alone_first = (&frame - frames.data()) % 2 == 0;
+    if (alone_first) measure_alone();
+    among_watch.measure([&] { (void)among.update(frame.pose, many, frame.time_ns); });
+    if (!alone_first) measure_alone();
+    times.same = times.same && alone.update(frame.pose, one, frame.time_ns).pose ==
+                                   among.update(frame.pose, many, frame.time_ns).pose;
+  }
+  times.alone_ns = alone_watch.summary().median_ns;
+  times.among_ns = among_watch.summary().median_ns;
+  times.placing_ns = placing_watch.summary().median_ns;
+  return times;
+}
+
+/// Gives how many of the methods drew another hand.
+Result<std::size_t> run_crowd(const Result<LoadedObject>& loaded) {
+  if (!loaded) return loaded.error();
+  const Result<StrokeFrames> stroke = make_stroke(*loaded, kDepths_m.front());
+  if (!stroke) return stroke.error();
+  std::size_t wrong = 0;
+  for (const Row& row : rows()) {
+    const CrowdTimes times = time_crowd(row, loaded->placed(), *stroke);
+    fmt::print(
+        "{:<8}{} on the {} alone in a scene {:.1f} us, with {} far ones {:.1f} us, {:.1f} to "
+        "place half of them: {:.2f} times as long, {:.2f} with placing{}\n",
+        "crowd", row.name, loaded->spec, 1e-3 * times.alone_ns, kFarObjects, 1e-3 * times.among_ns,
+        1e-3 * times.placing_ns, times.among_ns / times.alone_ns,
+        (times.among_ns + times.placing_ns) / times.alone_ns, times.same ? "" : "; ANOTHER HAND");
+    if (!times.same) ++wrong;
+  }
+  return wrong;
+}
+
 /// Of all rows of an object.
 struct Ran {
   std::size_t wrong = 0;
@@ -194,5 +270,11 @@ int main() {
   }
   fmt::print("nade on balls: {:.2f} times as long on the last as on the first\n",
              nade_ns.back() / nade_ns[nade_ns.size() - kBalls.size()]);
+  const Result<std::size_t> crowd = run_crowd(load_object("dog"));
+  if (!crowd) {
+    fmt::print(stderr, "corrector_bench: {}\n", crowd.error().message);
+    return 1;
+  }
+  wrong += *crowd;
   return wrong == 0 ? 0 : 1;
 }

@@ -8,11 +8,14 @@
 #include <initializer_list>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <string>
+#include <utility>
 
 #include "nade/assert.h"
 #include "proxy/proxy_hand.h"
 #include "ramps.h"
+#include "surface/near_objects.h"
 #include "surface/query_steps.h"
 
 namespace nade {
@@ -83,6 +86,15 @@ double seconds(std::int64_t from_ns, std::int64_t to_ns) {
 bool is_just_before(std::int64_t time_ns, std::int64_t last_ns) {
   return time_ns < last_ns && seconds(time_ns, last_ns) <= kLateClock_s;
 }
+
+/// What carries the skin of a part.
+Joint bone_of(Part part) {
+  const Joint joint = joint_of(part);
+  return part == Part::palm ? joint : joint_at(index_of(joint) - 1);
+}
+
+/// Another hand at the same time counts as one of so much later.
+constexpr double kShortestFrame_s = 0.001;
 
 /// Not where it is no number either.
 bool is_near(const HandPose& drawn, const HandPose& tracked) {
@@ -155,6 +167,17 @@ HandPose carried_over(const HandPose& tracked, const HandPose& drawn, const Hand
   return result;
 }
 
+/// What was remembered of one object of a scene, seen from another.
+void go_on_at(const CarrierBefore& carrier, ContactMemory& memory) {
+  if (memory.held_palm_ray) {
+    memory.held_palm_ray = carrier.from_other.rotation * *memory.held_palm_ray;
+  }
+  for (std::optional<Vec3>& point : memory.last_point) {
+    if (!point) continue;
+    point = carrier.from_other.apply(carrier.other_scale * *point) / carrier.placement.scale;
+  }
+}
+
 bool touches(const Contacts& contacts) {
   return std::any_of(contacts.begin(), contacts.end(),
                      [](const auto& contact) { return contact.has_value(); });
@@ -168,6 +191,12 @@ std::optional<Method> method_from_name(std::string_view name) {
   const auto found = std::find(kMethodNames.begin(), kMethodNames.end(), name);
   if (found == kMethodNames.end()) return std::nullopt;
   return static_cast<Method>(found - kMethodNames.begin());
+}
+
+std::array<Vec3, kJointCount> no_velocity() noexcept {
+  std::array<Vec3, kJointCount> velocity;
+  velocity.fill(Vec3::Zero());
+  return velocity;
 }
 
 CorrectorOptions paper_literal() {
@@ -223,7 +252,8 @@ Status check_options(const CorrectorOptions& options) {
   return status.ok() ? check_options(options.settle) : status;
 }
 
-HandCorrector::HandCorrector(const CorrectorOptions& options) : options_(options) {
+HandCorrector::HandCorrector(const CorrectorOptions& options)
+    : options_(options), near_(std::make_unique<NearObjects>()) {
   NADE_ASSERT(check_options(options).ok());
   if (options.method != Method::nade) return;
   for (const Handedness side : {Handedness::left, Handedness::right}) {
@@ -244,6 +274,8 @@ void HandCorrector::set_settle(const SettleOptions& settle) noexcept {
 void HandCorrector::reset() noexcept {
   contact_memory_ = {};
   forget_proxies();
+  near_->forget();
+  shown_.reset();
   answered_.reset();
   last_.reset();
   release_start_ns_.reset();
@@ -253,23 +285,34 @@ void HandCorrector::reset() noexcept {
 
 const CorrectedHand& HandCorrector::update(const HandPose& tracked, const Object& object,
                                            std::int64_t time_ns) noexcept {
-  const Question question{tracked, object.identity(), object.placement(), object.surface().shape(),
-                          time_ns};
+  const Question question{
+      tracked, object.identity(), object.placement(), object.surface().shape(), 0, time_ns};
   if (answered_ == question) return result_;
   answered_ = question;
+  answer(tracked, &object, time_ns);
+  return result_;
+}
+
+const CorrectedHand& HandCorrector::update(const HandPose& tracked, const Scene& scene,
+                                           std::int64_t time_ns) noexcept {
+  const NearObjects::Version version = near_->version_of(scene);
+  const Question question{tracked,        {nullptr, version.scene}, {},
+                          version.shapes, version.changes,          time_ns};
+  if (answered_ == question) return result_;
+  answer(tracked, &scene, time_ns);
+  answered_ = question;
+  answered_->shape = near_->version_of(scene).shapes;  // other objects are near now
+  return result_;
+}
+
+void HandCorrector::answer(const HandPose& tracked, Touchable objects,
+                           std::int64_t time_ns) noexcept {
   std::optional<HandFault> fault = fault_of(tracked);
-  if (!fault) {
-    correct(tracked, object, time_ns);
-    return result_;
-  }
+  if (!fault) return correct(tracked, objects, time_ns);
   const HandPose unit = with_unit_rotations(tracked);
   fault = fault_of(unit);
-  if (!fault) {
-    correct(unit, object, time_ns);
-  } else {
-    result_ = {tracked, HandStatus::untracked, fault, {}, {}};
-  }
-  return result_;
+  if (!fault) return correct(unit, objects, time_ns);
+  result_ = {tracked, HandStatus::untracked, fault, {}, {}};
 }
 
 HandPose HandCorrector::preview(const HandPose& tracked) const noexcept {
@@ -281,24 +324,94 @@ HandPose HandCorrector::preview(const HandPose& tracked) const noexcept {
   return carried_over(with_unit_rotations(answered_->tracked), result_.pose, newer);
 }
 
-void HandCorrector::correct(const HandPose& tracked, const Object& object,
+void HandCorrector::correct(const HandPose& tracked, Touchable objects,
                             std::int64_t time_ns) noexcept {
   result_ = {tracked, HandStatus::free, {}, {}, {}};
   if (options_.method == Method::none) return;
   if (last_ && is_just_before(time_ns, last_->time_ns)) time_ns = last_->time_ns;
   start_frame(tracked, time_ns);
   const detail::StepLimit limit(detail::kMostFrameSteps);
+  const Scene* const* const scene = std::get_if<const Scene*>(&objects);
+  if (scene != nullptr) {
+    near_->gather(**scene, tracked, shown_ ? &shown_->drawn : nullptr);
+  } else {
+    near_->forget();
+  }
+  const Object object = scene != nullptr ? near_->object() : *std::get<const Object*>(objects);
   if (options_.method == Method::paper) correct_by_paper(tracked, object, time_ns);
-  if (options_.method == Method::nade) follow_proxy(tracked, object, time_ns);
-  if (!limit.is_used_up()) return;
-  // What was found before it was used up and what was not do not make a hand.
-  reset();
-  result_ = {tracked, HandStatus::free, {}, {}, {}};
+  if (options_.method == Method::nade) follow_proxy(tracked, object, scene != nullptr, time_ns);
+  if (limit.is_used_up()) {
+    // What was found before it was used up and what was not do not make a hand.
+    reset();
+    result_ = {tracked, HandStatus::free, {}, {}, {}};
+    return;
+  }
+  measure_motion(object, scene != nullptr, time_ns);
+}
+
+void HandCorrector::add_contact(const SkinContact& contact, std::size_t place) noexcept {
+  touched_[result_.skin_contact_count] = place;
+  result_.skin_contacts[result_.skin_contact_count++] = contact;
+}
+
+/// Those of method paper.
+void HandCorrector::add_part_contacts() noexcept {
+  for (std::size_t i = 0; i < kPartCount; ++i) {
+    const std::optional<PartContact>& part = result_.contacts[i];
+    if (!part) continue;
+    SkinContact contact;
+    contact.bone = bone_of(part_at(i));
+    contact.point = part->surface_point;
+    contact.normal = part->normal;
+    contact.depth_m = std::max(0.0, part->depth_m);
+    add_contact(contact, near_->nearest_to(contact.point));
+  }
+}
+
+/// How the drawn hand goes, in the world and against what it touches; and whom that is.
+void HandCorrector::measure_motion(const Object& object, bool is_of_scene,
+                                   std::int64_t time_ns) noexcept {
+  const std::optional<Shown> before =
+      std::exchange(shown_, Shown{result_.pose, object.identity(), object.placement(), time_ns});
+  const double frame_s =
+      before ? std::max(kShortestFrame_s, seconds(before->time_ns, time_ns)) : kShortestFrame_s;
+  const auto contacts = std::span(result_.skin_contacts).first(result_.skin_contact_count);
+  for (std::size_t i = 0; i < kJointCount && before; ++i) {
+    result_.velocity_mps[i] =
+        (result_.pose.joints[i].position - before->drawn.joints[i].position) / frame_s;
+  }
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    SkinContact& contact = contacts[i];
+    contact.object = is_of_scene ? near_->id_of(touched_[i]) : object.identity().instance;
+    if (!before) continue;
+    const Vec3 on_bone = result_.pose[contact.bone].inverse().apply(contact.point);
+    const Vec3 skin_mps = (contact.point - before->drawn[contact.bone].apply(on_bone)) / frame_s;
+    Vec3 object_mps = Vec3::Zero();
+    if (is_of_scene) {
+      object_mps = near_->velocity_of(touched_[i], contact.point, frame_s);
+    } else if (before->object == object.identity()) {
+      const Vec3 local = object.placement().to_local(contact.point);
+      object_mps = (contact.point - before->placement.to_world(local)) / frame_s;
+    }
+    contact.velocity_mps = skin_mps - object_mps;
+  }
+  const auto deepest = std::max_element(
+      contacts.begin(), contacts.end(),
+      [](const SkinContact& one, const SkinContact& other) { return one.depth_m < other.depth_m; });
+  if (deepest != contacts.end()) {
+    std::swap(touched_[0], touched_[static_cast<std::size_t>(deepest - contacts.begin())]);
+  }
+  if (is_of_scene) near_->touch(std::span(touched_).first(contacts.size()));
 }
 
 void HandCorrector::correct_by_paper(const HandPose& tracked, const Object& object,
                                      std::int64_t time_ns) noexcept {
-  if (object.identity() != met_) contact_memory_ = {};
+  const std::optional<CarrierBefore> carrier = near_->rearrangement().carrier;
+  if (carrier) {
+    go_on_at(*carrier, contact_memory_);
+  } else if (object.identity() != met_) {
+    contact_memory_ = {};
+  }
   met_ = object.identity();
   Contacts contacts =
       find_contacts(tracked, skin_of(tracked), object, options_.contact, contact_memory_);
@@ -313,18 +426,24 @@ void HandCorrector::correct_by_paper(const HandPose& tracked, const Object& obje
   result_.pose = laid.hand;
   result_.contacts = contacts;
   result_.ray_turn_rad = laid.ray_turn_rad;
+  add_part_contacts();
   if (touches(contacts)) result_.status = HandStatus::corrected;
   release(tracked, {seated.correction, laid.bend}, time_ns);
 }
 
-void HandCorrector::follow_proxy(const HandPose& tracked, const Object& object,
+void HandCorrector::follow_proxy(const HandPose& tracked, const Object& object, bool is_of_scene,
                                  std::int64_t time_ns) noexcept {
   const double since_last_s = last_ ? seconds(last_->time_ns, time_ns) : 0.0;
   const double scale = hand_length_m_ / flesh_of(tracked.side).hand_length_m;
-  const ProxyResult proxy = proxies_[index_of(tracked.side)]->update(tracked, scale, object,
-                                                                     since_last_s, options_.settle);
+  const ProxyResult proxy = proxies_[index_of(tracked.side)]->update(
+      tracked, scale, object, near_->rearrangement(), since_last_s,
+      is_of_scene ? near_->feel() : options_.settle);
   result_.pose = proxy.hand;
   result_.contacts = proxy.contacts;
+  for (const BoneContact& bone : std::span(proxy.bones).first(proxy.bone_count)) {
+    add_contact({0, bone.bone, bone.point, bone.normal, bone.depth_m, Vec3::Zero()},
+                NearObjects::place_of(bone.hint));
+  }
   if (proxy.touches) {
     result_.status = HandStatus::corrected;
   } else if (proxy.corrected) {
@@ -349,6 +468,8 @@ void HandCorrector::start_frame(const HandPose& tracked, std::int64_t time_ns) n
   if (last_ && seconds(last_->time_ns, time_ns) > longest_gap_s) {
     contact_memory_ = {};
     forget_proxies();
+    near_->forget();
+    shown_.reset();
     last_.reset();
     release_start_ns_.reset();
   }

@@ -28,7 +28,7 @@ class Scenes : public testing::Test {
   }
 
   /// The scene of a file of these words; the error names the file.
-  Result<Scene> read(const std::string& words) {
+  Result<BenchScene> read(const std::string& words) {
     const std::string path = folder_.path("scene.json");
     std::ofstream(path) << words;
     return read_scene(path);
@@ -38,7 +38,7 @@ class Scenes : public testing::Test {
     SuiteObject object;
     CaseRecording recording;
   };
-  static Played play(const Scene& scene) {
+  static Played play(const BenchScene& scene) {
     Result<SuiteObject> object = load_scene_object(scene);
     EXPECT_TRUE(object.ok()) << object.error().message;
     Result<CaseRecording> recording = make_scene_recording(scene, *object);
@@ -62,7 +62,7 @@ TEST_F(Scenes, EveryFileIsPlayed) {
   const std::vector<ComparedMethod> methods = library_methods();
   const auto none = std::ranges::find(methods, "none", &ComparedMethod::name);
   const auto nade = std::ranges::find(methods, "nade", &ComparedMethod::name);
-  for (const std::shared_ptr<const Scene>& scene : *scenes) {
+  for (const std::shared_ptr<const BenchScene>& scene : *scenes) {
     SCOPED_TRACE(scene->name);
     EXPECT_FALSE(scene->what.empty());
     if (test::kSanitized && scene->object == "dog") continue;  // as the others, and slow
@@ -96,7 +96,7 @@ TEST_F(Scenes, TheSuiteHasThem) {
 }
 
 TEST_F(Scenes, KeysPutAnchorsWhereTheySay) {
-  const Result<Scene> scene = read(R"({"object": "plane", "depth": [0, 1], "path": [
+  const Result<BenchScene> scene = read(R"({"object": "plane", "depth": [0, 1], "path": [
     {"t": 0, "at": [0, 0.05, 0.1]},
     {"t": 1, "at": [0.1, 0.02, 0], "of": "index_tip", "turn": [-30, 0, 0]},
     {"t": 2, "at": [0, -0.01, 0], "of": "lowest", "gesture": "fist"}]})");
@@ -120,8 +120,8 @@ TEST_F(Scenes, RepeatsAndLeftHands) {
   const std::string path = R"("object": "plane", "depth": [0, 1], "rate": 30, "path": [
     {"t": 0, "at": [0.2, 0.1, 0]}, {"t": 0.5, "at": [0.2, 0.05, 0]},
     {"t": 1, "at": [0.2, 0.1, 0], "from": 0, "repeat": 3}, {"t": 4, "at": [0.2, 0.3, 0]}]})";
-  const Result<Scene> right = read("{" + path);
-  const Result<Scene> left = read(R"({"hand": "left", )" + path);
+  const Result<BenchScene> right = read("{" + path);
+  const Result<BenchScene> left = read(R"({"hand": "left", )" + path);
   ASSERT_TRUE(right.ok()) << right.error().message;
   ASSERT_TRUE(left.ok()) << left.error().message;
   EXPECT_EQ(right->path.size(), 8u);
@@ -144,7 +144,7 @@ TEST_F(Scenes, RepeatsAndLeftHands) {
 }
 
 TEST_F(Scenes, TrackersErr) {
-  const Result<Scene> scene = read(R"({"object": "plane", "hand": "right", "depth": [0, 1],
+  const Result<BenchScene> scene = read(R"({"object": "plane", "hand": "right", "depth": [0, 1],
     "path": [{"t": 0, "at": [0.2, 0.1, 0]}, {"t": 2, "at": [0.2, 0.1, 0]}],
     "faults": [{"t": 0.5, "lost_ms": 40}, {"t": 1, "swapped_ms": 100},
                {"t": 1.5, "glitch_frames": 3, "shift": [0, 0.2, 0]}]})");
@@ -167,7 +167,7 @@ TEST_F(Scenes, TrackersErr) {
 }
 
 TEST_F(Scenes, ObjectsMoveAndBreathe) {
-  const Result<Scene> scene = read(R"({"object": [{"box": [0.2, 0.1, 0.2]}], "depth": [0, 1],
+  const Result<BenchScene> scene = read(R"({"object": [{"box": [0.2, 0.1, 0.2]}], "depth": [0, 1],
     "path": [{"t": 0, "at": [0, 0.3, 0]}, {"t": 2, "at": [0, 0.3, 0]}],
     "motion": [{"t": 0, "at": [0, 0, 0]}, {"t": 1, "stretch": [1, 2, 1]},
                {"t": 2, "at": [0.5, 0, 0], "stretch": [1, 1, 1]}]})");
@@ -185,7 +185,7 @@ TEST_F(Scenes, ObjectsMoveAndBreathe) {
 
 TEST_F(Scenes, MistakesAreNamed) {
   const auto says = [&](const std::string& words, const std::string& part) {
-    const Result<Scene> scene = read(words);
+    const Result<BenchScene> scene = read(words);
     ASSERT_FALSE(scene.ok()) << words;
     EXPECT_NE(scene.error().message.find("scene.json"), std::string::npos);
     EXPECT_NE(scene.error().message.find(part), std::string::npos) << scene.error().message;

@@ -94,8 +94,8 @@ std::string tuning_as_markdown() {
   return text;
 }
 
-Result<std::vector<std::shared_ptr<const Scene>>> chosen_scenes(const std::string& folder) {
-  if (folder == "none") return std::vector<std::shared_ptr<const Scene>>{};
+Result<std::vector<std::shared_ptr<const BenchScene>>> chosen_scenes(const std::string& folder) {
+  if (folder == "none") return std::vector<std::shared_ptr<const BenchScene>>{};
   if (!folder.empty()) return read_scenes(folder);
   const Result<std::string> own = find_asset("scenes");
   if (!own) return own.error();

@@ -24,7 +24,7 @@ namespace nade::cli {
 [[nodiscard]] std::string tuning_as_markdown();
 
 /// The scenes of a folder; those that come with nade for an empty name, none for "none".
-[[nodiscard]] Result<std::vector<std::shared_ptr<const Scene>>> chosen_scenes(
+[[nodiscard]] Result<std::vector<std::shared_ptr<const BenchScene>>> chosen_scenes(
     const std::string& folder);
 
 }  // namespace nade::cli

@@ -230,7 +230,7 @@ Status run_pairs(const FigureArguments& arguments) {
   if (chosen->size() != 2) {
     return misuse(fmt::format("--method '{}': expected two methods to compare in pairs", methods));
   }
-  Result<std::vector<std::shared_ptr<const Scene>>> scenes = chosen_scenes(arguments.scenes);
+  Result<std::vector<std::shared_ptr<const BenchScene>>> scenes = chosen_scenes(arguments.scenes);
   if (!scenes) return scenes.error();
   PairsPlan plan{suite_cases({.scenes = std::move(scenes).value()}),
                  {std::move((*chosen)[0]), std::move((*chosen)[1])},

@@ -5,11 +5,13 @@
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <variant>
 
 #include "nade/contact.h"
 #include "nade/correction.h"
 #include "nade/fingers.h"
 #include "nade/flesh.h"
+#include "nade/scene.h"
 #include "nade/settle_options.h"
 #include "nade/status.h"
 
@@ -72,6 +74,24 @@ struct CorrectorOptions {
 /// one value for every joint.
 [[nodiscard]] std::optional<SkinDepths> believable_radii(const HandPose& hand) noexcept;
 
+/// Skin of one bone that touches an object; in the tracked hand's frame.
+struct SkinContact {
+  ObjectId object = 0;  ///< of the scene; of an object that was given alone, its `instance`
+  /// A phalanx by the joint at its base, as `index_intermediate`; `thumb_metacarpal`; or `palm`,
+  /// for all the rest.
+  Joint bone = Joint::palm;
+  Vec3 point = Vec3::Zero();         ///< on the surface
+  Vec3 normal = Vec3::UnitY();       ///< unit, out of the solid
+  double depth_m = 0.0;              ///< of the person's skin in the object, >= 0: how it presses
+  Vec3 velocity_mps = Vec3::Zero();  ///< of the drawn skin there against the object
+};
+
+/// The phalanges, the thumb's metacarpal and the palm.
+inline constexpr std::size_t kMostSkinContacts = 16;
+
+/// A velocity of 0 for each joint.
+[[nodiscard]] std::array<Vec3, kJointCount> no_velocity() noexcept;
+
 /// What to draw, and why; in the tracked hand's frame.
 struct CorrectedHand {
   HandPose pose;  ///< to draw: bit for bit the tracked one where there is nothing to correct
@@ -79,6 +99,12 @@ struct CorrectedHand {
   std::optional<HandFault> fault{};  ///< why a hand that was passed is `untracked`
   Contacts contacts{};  ///< of each part that the person presses in; none of the others
   std::array<double, kDigitCount> ray_turn_rad{};  ///< of method paper: the fingers' turned rays
+  /// Of each bone that touches at most one, and none while what was let go comes back; by method
+  /// paper of the palm and the fingertips.
+  std::array<SkinContact, kMostSkinContacts> skin_contacts{};
+  std::size_t skin_contact_count = 0;
+  /// Of the drawn joints, in the axes of the tracked hand's frame; 0 in a hand's first frame.
+  std::array<Vec3, kJointCount> velocity_mps = no_velocity();
 };
 
 /// Corrects one hand, frame by frame. Keep one for each hand; it is the only thing with memory. One
@@ -113,6 +139,15 @@ class HandCorrector {
   const CorrectedHand& update(const HandPose& tracked, const Object& object,
                               std::int64_t time_ns) noexcept;
 
+  /// The same for a hand that may touch any object of a scene, each of which has its own feel. One
+  /// object alone in a scene gives the same hand, bit for bit, as it does by itself. Objects out of
+  /// reach change nothing, bit for bit, where one was within reach when the hand was found. What
+  /// moves beside the hand takes nothing from what is known of the object that it touches; that one
+  /// takes it along. An object that is added, removed or put elsewhere under the hand lets it come
+  /// back slowly.
+  const CorrectedHand& update(const HandPose& tracked, const Scene& scene,
+                              std::int64_t time_ns) noexcept;
+
   /// The latest correction on a newer pose of the same hand, as for a picture's late update: each
   /// joint is shifted and turned against the one before it as in the last frame. Remembers nothing;
   /// the last frame's own pose gives the hand that was drawn. `tracked` as it is where nothing was
@@ -137,19 +172,36 @@ class HandCorrector {
 
   struct Question {
     HandPose tracked;
-    ObjectIdentity object;
+    ObjectIdentity object;  ///< of a scene: its number and no surface
     Placement placement;
-    std::uint64_t shape = 0;
+    std::uint64_t shape = 0;    ///< of a scene: those of what is near
+    std::uint64_t changes = 0;  ///< of a scene: how often it was changed
     std::int64_t time_ns = 0;
     bool operator==(const Question&) const = default;
   };
 
-  void correct(const HandPose& tracked, const Object& object, std::int64_t time_ns) noexcept;
+  /// What was drawn in a frame, and at which object.
+  struct Shown {
+    HandPose drawn;
+    ObjectIdentity object;
+    Placement placement;
+    std::int64_t time_ns = 0;
+  };
+
+  /// What may be touched.
+  using Touchable = std::variant<const Object*, const Scene*>;
+
+  void answer(const HandPose& tracked, Touchable objects, std::int64_t time_ns) noexcept;
+  void correct(const HandPose& tracked, Touchable objects, std::int64_t time_ns) noexcept;
+  void add_contact(const SkinContact& contact, std::size_t place) noexcept;
+  void add_part_contacts() noexcept;
+  void measure_motion(const Object& object, bool is_of_scene, std::int64_t time_ns) noexcept;
   void start_frame(const HandPose& tracked, std::int64_t time_ns) noexcept;
   void follow_length(double length_m) noexcept;
   void correct_by_paper(const HandPose& tracked, const Object& object,
                         std::int64_t time_ns) noexcept;
-  void follow_proxy(const HandPose& tracked, const Object& object, std::int64_t time_ns) noexcept;
+  void follow_proxy(const HandPose& tracked, const Object& object, bool is_of_scene,
+                    std::int64_t time_ns) noexcept;
   void forget_proxies() noexcept;
   [[nodiscard]] const HandFlesh& flesh_of(Handedness side) const noexcept;
   [[nodiscard]] SkinDepths skin_of(const HandPose& tracked) const noexcept;
@@ -161,6 +213,9 @@ class HandCorrector {
   ObjectIdentity met_;                                 ///< that it is of
   std::array<std::unique_ptr<ProxyHand>, 2> proxies_;  ///< method nade; by index_of(Handedness)
   CorrectedHand result_;
+  std::unique_ptr<NearObjects> near_;
+  std::array<std::size_t, kMostSkinContacts> touched_{};  ///< whose contacts those of `result_` are
+  std::optional<Shown> shown_;
   std::optional<Question> answered_;  ///< that `result_` is the answer to
   std::optional<Frame> last_;
   double hand_length_m_ = 0.0;      ///< mean over the last few seconds: bones do not grow

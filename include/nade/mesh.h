@@ -78,6 +78,8 @@ class MeshSurface final : public Surface {
 
   /// Another after each refit, and for each mesh.
   [[nodiscard]] std::uint64_t shape() const noexcept override;
+  /// Others after a refit.
+  [[nodiscard]] std::optional<SurfaceBounds> bounds() const noexcept override;
 
   [[nodiscard]] const MeshReport& report() const;
 

@@ -19,6 +19,7 @@ class BoxSurface final : public Surface {
   [[nodiscard]] std::optional<SurfacePoint> closest_point(
       const Vec3& query, double max_distance, SurfaceHint& hint) const noexcept override;
   [[nodiscard]] std::uint64_t shape() const noexcept override { return shape_; }
+  [[nodiscard]] std::optional<SurfaceBounds> bounds() const noexcept override;
 
  private:
   Vec3 core_;  ///< half the size of the box that the rounding goes around
@@ -36,6 +37,7 @@ class CylinderSurface final : public Surface {
   [[nodiscard]] std::optional<SurfacePoint> closest_point(
       const Vec3& query, double max_distance, SurfaceHint& hint) const noexcept override;
   [[nodiscard]] std::uint64_t shape() const noexcept override { return shape_; }
+  [[nodiscard]] std::optional<SurfaceBounds> bounds() const noexcept override;
 
  private:
   Eigen::Vector2d core_;  ///< radius and half height of what the rounding goes around
@@ -57,6 +59,7 @@ class EllipsoidSurface final : public Surface {
   [[nodiscard]] std::optional<SurfacePoint> closest_point(
       const Vec3& query, double max_distance, SurfaceHint& hint) const noexcept override;
   [[nodiscard]] std::uint64_t shape() const noexcept override { return shape_; }
+  [[nodiscard]] std::optional<SurfaceBounds> bounds() const noexcept override;
 
  private:
   Vec3 half_axes_;
@@ -75,6 +78,7 @@ class PlateSurface final : public Surface {
   [[nodiscard]] std::optional<SurfacePoint> closest_point(
       const Vec3& query, double max_distance, SurfaceHint& hint) const noexcept override;
   [[nodiscard]] std::uint64_t shape() const noexcept override { return shape_; }
+  [[nodiscard]] std::optional<SurfaceBounds> bounds() const noexcept override;
 
  private:
   std::vector<Eigen::Vector2d> outline_;  ///< the solid to the left of each side

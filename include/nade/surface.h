@@ -38,6 +38,17 @@ struct SurfaceHint {
   std::uint32_t element = kNone;
 };
 
+/// A box along the axes of a surface's frame.
+struct SurfaceBounds {
+  Vec3 low = Vec3::Zero();
+  Vec3 high = Vec3::Zero();
+
+  /// How far a point is outside; 0 within.
+  [[nodiscard]] double distance(const Vec3& point) const {
+    return (point - point.cwiseMax(low).cwiseMin(high)).norm();
+  }
+};
+
 /// A solid's surface, in its own frame. Implement it to bring an object of your own (a height
 /// field, a distance function); queries must be thread-safe, must not allocate, and give no
 /// result for a query that is not finite. One whose form may change says so by `shape`: a hand that
@@ -57,6 +68,12 @@ class Surface {
   /// place in memory, so that answers are not remembered beyond it. The default is for surfaces
   /// that keep theirs.
   [[nodiscard]] virtual std::uint64_t shape() const noexcept { return 0; }
+
+  /// A box that all of the surface is in, finite; none where there is no such box, or nobody knows.
+  /// Only a `Scene` asks: of what has none it can never tell that it is out of reach.
+  [[nodiscard]] virtual std::optional<SurfaceBounds> bounds() const noexcept {
+    return std::nullopt;
+  }
 };
 
 /// The half-space below y = 0.
@@ -76,6 +93,7 @@ class SphereSurface final : public Surface {
   [[nodiscard]] std::uint64_t shape() const noexcept override {
     return std::bit_cast<std::uint64_t>(radius_);
   }
+  [[nodiscard]] std::optional<SurfaceBounds> bounds() const noexcept override;
   [[nodiscard]] std::optional<RayHit> first_hit(const Ray& ray) const noexcept override;
   [[nodiscard]] std::optional<SurfacePoint> closest_point(
       const Vec3& query, double max_distance, SurfaceHint& hint) const noexcept override;

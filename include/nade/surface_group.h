@@ -13,10 +13,13 @@ namespace nade {
 /// table. Where they stand is in the group's frame; most simply that is the world's, or a vehicle's
 /// where they go along with one: what goes by at several metres a second is met anew in each frame.
 ///
-/// A query asks all of them, so give it what is near the hand: within 0.3 m of its palm, or fingers
-/// are in what is not there yet. Solids that overlap are one: outside
-/// of them all answers are exact; inside two of them the depth is that in the one that is entered
-/// deeper, and a ray from inside one ends at its surface, also within another.
+/// For a few that belong together, as the parts of a thing, and where a `Surface` is wanted. A
+/// query asks all of them: of many, or where several move, make a `Scene`, which finds what is near
+/// the hand by itself.
+///
+/// Solids that overlap are one: outside of them all answers are exact; inside two of them the depth
+/// is that in the one that is entered deeper, and a ray from inside one ends at its surface, also
+/// within another.
 class SurfaceGroup final : public Surface {
  public:
   static constexpr std::size_t kMostMembers = 255;
@@ -35,6 +38,8 @@ class SurfaceGroup final : public Surface {
   [[nodiscard]] std::optional<SurfacePoint> closest_point(
       const Vec3& query, double max_distance, SurfaceHint& hint) const noexcept override;
   [[nodiscard]] std::uint64_t shape() const noexcept override;
+  /// Of all members, where each of them has some.
+  [[nodiscard]] std::optional<SurfaceBounds> bounds() const noexcept override;
 
  private:
   std::vector<Object> members_;

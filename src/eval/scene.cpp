@@ -72,7 +72,7 @@ Vec3 palm_position(const SceneKey& key, const PosableHand& hand, const HandAngle
 
 /// The right hand's way: where its palm joint is, how it is turned, and how much more than relaxed
 /// each digit is bent.
-SmoothPath hand_path(const Scene& scene, const PosableHand& hand) {
+SmoothPath hand_path(const BenchScene& scene, const PosableHand& hand) {
   const HandAngles relaxed = measure_angles(hand.relaxed());
   std::vector<double> times_s;
   std::vector<Eigen::VectorXd> values;
@@ -92,7 +92,7 @@ SmoothPath hand_path(const Scene& scene, const PosableHand& hand) {
   return {std::move(times_s), std::move(values)};
 }
 
-std::optional<SmoothPath> object_path(const Scene& scene) {
+std::optional<SmoothPath> object_path(const BenchScene& scene) {
   if (scene.motion.empty()) return std::nullopt;
   std::vector<double> times_s;
   std::vector<Eigen::VectorXd> values;
@@ -116,7 +116,7 @@ struct FrameFaults {
   Pose error;
 };
 
-FrameFaults faults_at(const Scene& scene, double time_s) {
+FrameFaults faults_at(const BenchScene& scene, double time_s) {
   // A time that is a frame's own counts, however it was rounded.
   const double half_frame_s = 0.5 / scene.rate_hz;
   const auto lasts = [&](double from_s, double duration_s) {
@@ -139,8 +139,8 @@ FrameFaults faults_at(const Scene& scene, double time_s) {
 /// One hand of a scene, frame by frame.
 class SceneHand {
  public:
-  SceneHand(const Scene& scene, Handedness side, const HandPose& relaxed, const SmoothPath& path,
-            const Pose& frame)
+  SceneHand(const BenchScene& scene, Handedness side, const HandPose& relaxed,
+            const SmoothPath& path, const Pose& frame)
       : side_(side),
         hand_(relaxed, side, scene.hand_scale),
         noise_(scene.noise, scene.seed + index_of(side)),
@@ -176,7 +176,7 @@ class SceneHand {
 };
 
 /// The frame in which the path is told.
-Result<Pose> path_frame(const Scene& scene, const LoadedObject& object) {
+Result<Pose> path_frame(const BenchScene& scene, const LoadedObject& object) {
   if (scene.place.empty()) return Pose{};
   const Result<MeshPlace> place = object.place(scene.place);
   if (!place) return place.error();
@@ -191,14 +191,14 @@ Quat turned_by(const Vec3& turn_rad) {
               Eigen::AngleAxisd(turn_rad.z(), Vec3::UnitZ()));
 }
 
-Result<SuiteObject> load_scene_object(const Scene& scene) {
+Result<SuiteObject> load_scene_object(const BenchScene& scene) {
   if (!scene.object.empty()) return load_suite_object(scene.object);
   Result<LoadedObject> loaded = shape_object("scene/" + scene.name, {scene.soup, {{"origin", {}}}});
   if (!loaded) return loaded.error();
   return SuiteObject{std::move(loaded).value(), StrokeGuide::surface};
 }
 
-Result<CaseRecording> make_scene_recording(const Scene& scene, const SuiteObject& object) {
+Result<CaseRecording> make_scene_recording(const BenchScene& scene, const SuiteObject& object) {
   const Result<HandPose> relaxed = load_relaxed_hand(Handedness::right);
   if (!relaxed) return relaxed.error();
   const Result<Pose> frame = path_frame(scene, object.loaded);

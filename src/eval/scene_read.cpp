@@ -29,7 +29,7 @@ class SceneReader {
 
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 
-  void read(const Json& json, Scene& scene);
+  void read(const Json& json, BenchScene& scene);
 
  private:
   void fail(const std::string& where, const std::string& expected) {
@@ -49,13 +49,13 @@ class SceneReader {
   Gesture gesture(const Json& json, const std::string& where);
   std::optional<Bend> bend(const Json& json, const std::string& where);
   std::variant<SceneAnchor, Joint> anchor(const Json& json, const std::string& where);
-  void object(const Json& json, Scene& scene);
+  void object(const Json& json, BenchScene& scene);
   void part(const Json& json, const std::string& where, TriangleSoup& soup);
   TriangleSoup shape(const Json& json, const std::string& where);
-  void path(const Json& json, Scene& scene);
-  void motion(const Json& json, Scene& scene);
-  void faults(const Json& json, Scene& scene);
-  void who(const Json& json, Scene& scene);
+  void path(const Json& json, BenchScene& scene);
+  void motion(const Json& json, BenchScene& scene);
+  void faults(const Json& json, BenchScene& scene);
+  void who(const Json& json, BenchScene& scene);
   template <class Key>
   void add(const Json& json, const std::string& where, const Key& key, std::vector<Key>& keys);
   template <class Key>
@@ -210,7 +210,7 @@ void SceneReader::part(const Json& json, const std::string& where, TriangleSoup&
   }
 }
 
-void SceneReader::object(const Json& json, Scene& scene) {
+void SceneReader::object(const Json& json, BenchScene& scene) {
   if (json.is_string()) {
     scene.object = json.get<std::string>();
   } else if (json.is_array() && !json.empty() && json.size() <= kMostParts) {
@@ -249,7 +249,7 @@ void SceneReader::repeat(const Json& json, const std::string& where, std::vector
   }
 }
 
-void SceneReader::path(const Json& json, Scene& scene) {
+void SceneReader::path(const Json& json, BenchScene& scene) {
   if (!json.is_array() || json.empty()) return fail("path", "a list of keys");
   SceneKey key;
   for (std::size_t i = 0; i < json.size() && !error_; ++i) {
@@ -267,7 +267,7 @@ void SceneReader::path(const Json& json, Scene& scene) {
   }
 }
 
-void SceneReader::motion(const Json& json, Scene& scene) {
+void SceneReader::motion(const Json& json, BenchScene& scene) {
   if (!json.is_array()) return fail("motion", "a list of keys");
   SceneMotionKey key;
   for (std::size_t i = 0; i < json.size() && !error_; ++i) {
@@ -287,7 +287,7 @@ void SceneReader::motion(const Json& json, Scene& scene) {
   }
 }
 
-void SceneReader::faults(const Json& json, Scene& scene) {
+void SceneReader::faults(const Json& json, BenchScene& scene) {
   if (!json.is_array()) return fail("faults", "a list");
   for (std::size_t i = 0; i < json.size() && !error_; ++i) {
     const Json& one = json[i];
@@ -313,7 +313,7 @@ void SceneReader::faults(const Json& json, Scene& scene) {
   }
 }
 
-void SceneReader::who(const Json& json, Scene& scene) {
+void SceneReader::who(const Json& json, BenchScene& scene) {
   const std::string hand = text(json, "hand", "right");
   if (hand != "right" && hand != "left" && hand != "both") fail("hand", "right, left or both");
   scene.hands = {hand != "right", hand != "left"};
@@ -325,7 +325,7 @@ void SceneReader::who(const Json& json, Scene& scene) {
   scene.seed = static_cast<std::uint64_t>(number(json, "scene", "seed", 1.0, 1e9, 1.0));
 }
 
-void SceneReader::read(const Json& json, Scene& scene) {
+void SceneReader::read(const Json& json, BenchScene& scene) {
   check_keys(json, "scene",
              {"what", "object", "place", "hand", "size", "rate", "noise", "seed", "path", "motion",
               "faults", "depth"});
@@ -347,7 +347,7 @@ void SceneReader::read(const Json& json, Scene& scene) {
 
 }  // namespace
 
-Result<Scene> read_scene(const std::string& path) {
+Result<BenchScene> read_scene(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream whole;
   whole << file.rdbuf();
@@ -356,7 +356,7 @@ Result<Scene> read_scene(const std::string& path) {
   if (json.is_discarded()) {
     return Error{ErrorCode::bad_format, fmt::format("{}: expected JSON", path)};
   }
-  Scene scene;
+  BenchScene scene;
   scene.name = std::filesystem::path(path).stem().string();
   SceneReader reader(path);
   reader.read(json, scene);
@@ -364,7 +364,7 @@ Result<Scene> read_scene(const std::string& path) {
   return scene;
 }
 
-Result<std::vector<std::shared_ptr<const Scene>>> read_scenes(const std::string& folder) {
+Result<std::vector<std::shared_ptr<const BenchScene>>> read_scenes(const std::string& folder) {
   std::vector<std::string> files;
   std::error_code failed;
   for (const auto& entry : std::filesystem::directory_iterator(folder, failed)) {
@@ -374,11 +374,11 @@ Result<std::vector<std::shared_ptr<const Scene>>> read_scenes(const std::string&
     return Error{ErrorCode::not_found, fmt::format("{}: expected a folder of scenes", folder)};
   }
   std::sort(files.begin(), files.end());
-  std::vector<std::shared_ptr<const Scene>> scenes;
+  std::vector<std::shared_ptr<const BenchScene>> scenes;
   for (const std::string& file : files) {
-    Result<Scene> scene = read_scene(file);
+    Result<BenchScene> scene = read_scene(file);
     if (!scene) return scene.error();
-    scenes.push_back(std::make_shared<const Scene>(std::move(scene).value()));
+    scenes.push_back(std::make_shared<const BenchScene>(std::move(scene).value()));
   }
   return scenes;
 }

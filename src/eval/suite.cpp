@@ -289,7 +289,7 @@ std::vector<SuiteCase> suite_cases(const SuiteOptions& options) {
     }
   }
   if (options.size == SuiteSize::quick) return cases;
-  for (const std::shared_ptr<const Scene>& scene : options.scenes) {
+  for (const std::shared_ptr<const BenchScene>& scene : options.scenes) {
     SuiteCase played;
     played.scene = scene;
     played.object = scene->object.empty() ? played.name() : scene->object;

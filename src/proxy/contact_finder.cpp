@@ -37,6 +37,21 @@ constexpr double kHighestStep = 2.0;
 constexpr double kBefore_m = 0.003;  // room is looked for from so far before the side
 constexpr double kRoom_m = 0.02;
 
+/// By joint: the number of the bone that it carries, in `kBones`.
+constexpr std::array<std::size_t, kJointCount> kBoneOf = [] {
+  std::array<std::size_t, kJointCount> result{};
+  for (std::size_t bone = 0; bone < kBones.size(); ++bone) {
+    const std::size_t joint = index_of(kBones[bone]);
+    result[joint] = bone;
+    // What a tip carries is of the phalanx before it.
+    for (std::size_t d = 0; d < kDigitCount; ++d) {
+      const std::size_t tip = index_of(joints_of(digit_at(d)).tip);
+      if (joint + 1 == tip) result[tip] = bone;
+    }
+  }
+  return result;
+}();
+
 bool is_palm(SkinRegion region) {
   return region == SkinRegion::heel || region == SkinRegion::hollow ||
          region == SkinRegion::knuckles;
@@ -76,10 +91,10 @@ class Finder {
     count_travel(posed_.hand, state_);
     PadLooks looks{search_.object,
                    search_.before ? &*search_.before : nullptr,
-                   std::nullopt,
+                   posed_.hand[Joint::palm].position,
+                   search_.planes_lost,
                    state_.travel_m,
                    {}};
-    if (search_.planes_lost) looks.palm = posed_.hand[Joint::palm].position;
     const ProxyTuning& tuning = search_.tuning;
     pressed_ = smoothstep(kNotPressed_m, tuning.pressed_m, search_.deepest_m);
     const double frame_m = search_.speed_mps * search_.seconds;
@@ -121,6 +136,7 @@ class Finder {
     brake(lowest, plane);
     if (pad.palmar) draw_near(*pad.palmar, plane, 1.0 - nearest.ramp);
     if (pad.part) touch_part(*pad.part, lowest, plane);
+    if (lowest.gap_m < kTouches_m + search_.reach_m) touch_bone(pad, lowest, plane, known.hint);
     const double slack_m = lowest.gap_m - skin_reach_m_;
     if (!pad.palmar && slack_m > 0.0) {
       known.free_m = std::max(known.free_m, reach_m + slack_m + state_.travel_m);
@@ -234,6 +250,19 @@ class Finder {
     touch.gap_m = lowest.gap_m;
     touch.point = &point;
     touch.plane = plane;
+  }
+
+  void touch_bone(const FleshPad& pad, const Lowest& lowest, const PadPlane& plane,
+                  const SurfaceHint& hint) {
+    BoneTouch& touch = found_.bones[kBoneOf[pad.middle.joints[0]]];
+    const FleshPoint& point = search_.flesh.skin[lowest.skin];
+    const double depth_m = plane.normal.dot(plane.point - search_.tracked.position(point));
+    touch.depth_m = std::max(touch.depth_m, depth_m);
+    if (touch.point != nullptr && lowest.gap_m >= touch.gap_m) return;
+    touch.gap_m = lowest.gap_m;
+    touch.point = &point;
+    touch.plane = plane;
+    touch.hint = hint;
   }
 
   const ContactSearch& search_;

@@ -45,6 +45,27 @@ struct PartTouch {
   PadPlane plane;
 };
 
+/// The bones whose skin touches; the palm stands for all that is no phalanx, and not the thumb's.
+inline constexpr std::array<Joint, 16> kBones{
+    Joint::palm,          Joint::thumb_metacarpal, Joint::thumb_proximal,
+    Joint::thumb_distal,  Joint::index_proximal,   Joint::index_intermediate,
+    Joint::index_distal,  Joint::middle_proximal,  Joint::middle_intermediate,
+    Joint::middle_distal, Joint::ring_proximal,    Joint::ring_intermediate,
+    Joint::ring_distal,   Joint::little_proximal,  Joint::little_intermediate,
+    Joint::little_distal};
+
+/// Drawn skin nearer than this touches.
+inline constexpr double kTouches_m = 0.001;
+
+/// The skin of a bone against the surface near it.
+struct BoneTouch {
+  double depth_m = 0.0;               ///< of the tracked skin, the deepest; not below 0
+  double gap_m = 0.0;                 ///< of the drawn skin, the nearest
+  const FleshPoint* point = nullptr;  ///< which that is; none that may touch
+  PadPlane plane;
+  SurfaceHint hint;  ///< of the query that found the plane
+};
+
 /// The palm's skin against the surface.
 struct PalmTouch {
   Vec3 normal = Vec3::Zero();  ///< of the surface under it, times square metres
@@ -58,6 +79,7 @@ struct FoundContacts {
   HandFreedoms even_pull = HandFreedoms::Zero();  ///< of adhesion that no step changes
   PalmTouch palm;
   std::array<PartTouch, kPartCount> parts;
+  std::array<BoneTouch, kBones.size()> bones;  ///< as `kBones`
 };
 
 /// Fills `state.terms` with those of the energy that concern the surface, for a posed hand.

@@ -70,6 +70,14 @@ void ride_along(const ScaledSurface& object, double seconds, ProxyState& state) 
   }
 }
 
+bool is_under_hand(const NearChange& change, const ProxyState& state) noexcept {
+  const auto& joints = state.last->drawn.joints;
+  return std::any_of(joints.begin(), joints.end(), [&](const Pose& joint) {
+    return change.before.at_least(joint.position) < kBeyond_m ||
+           change.now.at_least(joint.position) < kBeyond_m;
+  });
+}
+
 bool is_swallowed(const ScaledSurface& object, const ProxyState& state) noexcept {
   const Vec3& palm = state.last->drawn[Joint::palm].position;
   SurfaceHint hint;

@@ -12,6 +12,9 @@ namespace nade {
 /// much of its motion as was watched.
 void ride_along(const ScaledSurface& object, double seconds, ProxyState& state) noexcept;
 
+/// Whether what an object beside the carrier did may be seen under the last frame's drawn hand.
+[[nodiscard]] bool is_under_hand(const NearChange& change, const ProxyState& state) noexcept;
+
 /// Whether an object that deformed has the last frame's drawn hand deep inside by that.
 [[nodiscard]] bool is_swallowed(const ScaledSurface& object, const ProxyState& state) noexcept;
 

@@ -226,11 +226,12 @@ bool find_plane(PadLooks& looks, const FleshPoint& point, const Vec3& middle, do
   const double search_m = reach_m + kFarSlack_m;
   const std::optional<SurfacePoint> nearest = look(object, middle, search_m, known);
   const bool far = left_of(middle, looks.travel_m, known) > reach_m;
+  const bool is_side_lost = std::exchange(known.is_side_lost, false) || looks.are_sides_lost;
   known.outward = Vec3::Zero();
   if (nearest && far) known.outward = (middle - nearest->point).normalized();
   if (!nearest || far) return false;
   known.plane = PadPlane{middle, nearest->point, outward_normal(*nearest, middle)};
-  if (!before && looks.palm) before = wall_before(object, *looks.palm, middle);
+  if (!before && is_side_lost) before = wall_before(object, looks.palm, middle);
   const std::optional<SurfacePoint> same =
       before ? on_side_of(object, *before, *nearest, middle, search_m, known.hint) : std::nullopt;
   if (same) known.plane = PadPlane{middle, same->point, same->normal};
@@ -238,7 +239,7 @@ bool find_plane(PadLooks& looks, const FleshPoint& point, const Vec3& middle, do
   const std::optional<PadPlane> wall = wall_on_way(object, middle, way);
   if (wall && wall->normal.dot(known.plane->normal) <= kOtherSide) known.plane = wall;
   // In a corner no direction in between keeps out of both sides. A hand found anew comes from none.
-  if (!looks.palm && find_corner(wall, before, beside, way.norm(), known)) {
+  if (!is_side_lost && find_corner(wall, before, beside, way.norm(), known)) {
     known.curvature = 0.0;
     return true;
   }

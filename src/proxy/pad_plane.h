@@ -36,7 +36,8 @@ struct PadMemory {
   Vec3 seen_from = Vec3::Zero();  ///< where it, or one whose ball it shares, looked from last
   Vec3 outward = Vec3::Zero();    ///< unit, off the surface, where it was too far; zero elsewhere
   double curvature = 0.0;         ///< there, along the way that the pad went, 1/m; convex above 0
-  double same_m = 0.0;            ///< the plane serves within this of there
+  double same_m = 0.0;            ///< the plane serves within this of there; below 0: no more
+  bool is_side_lost = false;      ///< it had one of what has moved since: the palm's side counts
   double clearance_m = 0.0;       ///< there; more where its skin faces away
   double free_m = 0.0;            ///< what was left of that when last seen, plus `travel_m` then
   /// By how much the tracked hand's pad is out of the object at the least, plus `way_m`.
@@ -69,8 +70,9 @@ class FreeBalls {
 struct PadLooks {
   const ScaledSurface& object;
   const PosedFlesh* before;  ///< the last frame's hand, if any
-  std::optional<Vec3> palm;  ///< of a hand found anew
-  double travel_m = 0.0;     ///< `ProxyState::travel_m`
+  Vec3 palm = Vec3::Zero();
+  bool are_sides_lost = false;  ///< of a hand found anew: the palm's counts
+  double travel_m = 0.0;        ///< `ProxyState::travel_m`
   FreeBalls free;
 };
 

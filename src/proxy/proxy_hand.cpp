@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "contact_finder.h"
 #include "coupling.h"
@@ -62,10 +63,12 @@ constexpr double kCatchUpFaster = 10.0;
 class ProxyFrame {
  public:
   ProxyFrame(const SeenHand& seen, const std::optional<ShownBefore>& before, const HandFlesh& flesh,
-             const ProxyTuning& tuning, double scale, const ScaledSurface& object, double seconds,
-             const SettleOptions& options, ProxyState& state)
+             const ProxyTuning& tuning, double scale, const ScaledSurface& object,
+             const Rearrangement& around, double seconds, const SettleOptions& options,
+             ProxyState& state)
       : tuning_(tuning),
         object_(object),
+        around_(around),
         seen_(seen),
         before_(before),
         options_(options),
@@ -110,9 +113,11 @@ class ProxyFrame {
   [[nodiscard]] bool is_displaced() const;
   [[nodiscard]] HandPose on_its_way_back(const HandPose& settled);
   ProxyResult finish();
+  void find_bones(ProxyResult& result) const;
 
   const ProxyTuning& tuning_;
   const ScaledSurface& object_;
+  const Rearrangement& around_;
   const SeenHand& seen_;
   const std::optional<ShownBefore>& before_;
   const SettleOptions& options_;
@@ -123,6 +128,8 @@ class ProxyFrame {
   double seconds_;       ///< as it counts
 
   bool deformed_ = false;  ///< whether the object has another shape or size than it had
+  bool stirred_ = false;   ///< whether something beside it, and near the hand, moved
+  bool replaced_ = false;  ///< whether the object, or what is near, is another than it was
   bool jumped_ = false;    ///< whether the tracked hand did
   bool found_anew_ = false;
   std::optional<Correction> let_go_from_;  ///< that it had when it was let go in this frame
@@ -141,7 +148,15 @@ class ProxyFrame {
 /// The object may have deformed, and taken the hand along.
 void ProxyFrame::follow_object() {
   deformed_ = object_.scale() != state_.scale || object_.surface().shape() != state_.shape;
-  if (deformed_ && state_.last) ride_along(object_, seconds_, state_);
+  replaced_ = seen_.at_another && !around_.carrier;
+  if (!state_.last) return;
+  for (const NearChange& change : around_.changes) {
+    forget_near(change, around_.hand_radius_m, state_);
+    if (!is_under_hand(change, state_)) continue;
+    stirred_ = true;
+    replaced_ = replaced_ || change.sudden;
+  }
+  if (deformed_ || stirred_) ride_along(object_, seconds_, state_);
 }
 
 /// How the tracked hand moves against it.
@@ -161,7 +176,7 @@ bool ProxyFrame::is_found_anew() const {
   const Vec3& palm = model_.tracked[Joint::palm].position;
   const double growth = std::abs(object_.scale() / state_.scale - 1.0);
   if (!(motion_m_ + growth * palm.norm() <= kTeleport_m)) return true;
-  if ((deformed_ || seen_.at_another) && is_swallowed(object_, state_)) return true;
+  if ((deformed_ || stirred_ || replaced_) && is_swallowed(object_, state_)) return true;
   if (since_last_s_ <= kMissing_s) return false;
   const Vec3 way = palm - state_.last->tracked[Joint::palm].position;
   return state_.mode != ProxyMode::contact || motion_m_ > kPressesOn_m ||
@@ -349,14 +364,14 @@ void ProxyFrame::remember_frame(const HandPose& drawn) {
     }
   }
   state_.last = SettledFrame{tracked, drawn, correction_};
-  watch_surface(object_, deformed_ && !found_anew_, seconds_, state_);
+  watch_surface(object_, (deformed_ || stirred_) && !found_anew_, seconds_, state_);
   state_.shape = object_.surface().shape();
   state_.scale = object_.scale();
 }
 
 /// Whether its object is gone, or another is there, in which the drawn hand was.
 bool ProxyFrame::is_displaced() const {
-  return before_ && (found_anew_ || (seen_.at_another && is_thrown(*before_, correction_)));
+  return before_ && (found_anew_ || (replaced_ && is_thrown(*before_, correction_)));
 }
 
 /// What the object let go, or left, is found anew at once, and drawn so a little later: it comes
@@ -404,7 +419,21 @@ ProxyResult ProxyFrame::finish() {
     contact.depth_m = part.depth_m;
     result.contacts[i] = contact;
   }
+  // One that comes back is not where it was settled.
+  if (state_.mode != ProxyMode::returning) find_bones(result);
   return result;
+}
+
+void ProxyFrame::find_bones(ProxyResult& result) const {
+  for (std::size_t i = 0; i < kBones.size(); ++i) {
+    const BoneTouch& touch = found_.bones[i];
+    if (touch.point == nullptr) continue;
+    const Vec3 skin = posed_.flesh.position(*touch.point);
+    const double gap_m = touch.plane.normal.dot(skin - touch.plane.point);
+    if (gap_m > kTouches_m) continue;
+    result.bones[result.bone_count++] = {kBones[i], skin - gap_m * touch.plane.normal,
+                                         touch.plane.normal, touch.depth_m, touch.hint};
+  }
 }
 
 namespace {
@@ -422,6 +451,10 @@ ProxyResult brought_back(const Pose& object, const HandPose& tracked, ProxyResul
       *way = object.rotation * *way;
     }
   }
+  for (BoneContact& contact : std::span(result.bones).first(result.bone_count)) {
+    contact.point = object.apply(contact.point);
+    contact.normal = object.rotation * contact.normal;
+  }
   return result;
 }
 
@@ -434,15 +467,17 @@ ProxyHand& ProxyHand::operator=(ProxyHand&&) noexcept = default;
 ProxyHand::~ProxyHand() = default;
 
 ProxyResult ProxyHand::update(const HandPose& tracked, double scale, const Object& object,
-                              double seconds, const SettleOptions& options) noexcept {
-  if (is_nowhere(object, tracked)) return update(tracked, scale, nothing(), seconds, options);
+                              const Rearrangement& around, double seconds,
+                              const SettleOptions& options) noexcept {
+  if (is_nowhere(object, tracked)) return update(tracked, scale, nothing(), {}, seconds, options);
   const std::optional<SettledFrame>& last = state_->last;
   const SeenHand seen =
-      see_hand(tracked, object, seconds, last ? &last->tracked : nullptr, state_->object);
-  const std::optional<ShownBefore> before = go_on(seen, object, *state_);
+      see_hand(tracked, object, seconds, last ? &last->tracked : nullptr,
+               around.carrier ? &around.carrier->placement.pose : nullptr, state_->object);
+  const std::optional<ShownBefore> before = go_on(seen, object, around.carrier, *state_);
   const ScaledSurface surface(object);
-  ProxyFrame frame(seen, before, *flesh_, tuning_, rounded(scale), surface, seconds, options,
-                   *state_);
+  ProxyFrame frame(seen, before, *flesh_, tuning_, rounded(scale), surface, around, seconds,
+                   options, *state_);
   return brought_back(state_->object.place, tracked, frame.run());
 }
 

@@ -1,5 +1,8 @@
 #include "state.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "contact_finder.h"
 
 namespace nade {
@@ -11,12 +14,15 @@ Correction turned(const Quat& by, Correction correction) {
   return correction;
 }
 
-/// Another object: what is known of the hand goes on there, what is known of the surface does not.
-void go_on_at(const Object& object, const Pose& from_last, ProxyState& state) {
-  const Quat& by = from_last.rotation;
+/// A pad in an inside corner may be so far from its sides.
+constexpr double kCorner_m = 0.03;
+
+/// Another object: what is known of the hand goes on there.
+void take_hand_over(const Pose& from_other, ProxyState& state) {
+  const Quat& by = from_other.rotation;
   SettledFrame& last = *state.last;
-  last.tracked = moved(last.tracked, from_last);
-  last.drawn = moved(last.drawn, from_last);
+  last.tracked = moved(last.tracked, from_other);
+  last.drawn = moved(last.drawn, from_other);
   last.correction = turned(by, last.correction);
   SurfaceTouch& touch = state.touch;
   for (Vec3* const vector : {&touch.normal, &touch.lag, &touch.drawn_lag}) *vector = by * *vector;
@@ -27,9 +33,32 @@ void go_on_at(const Object& object, const Pose& from_last, ProxyState& state) {
     state.returning.from.segment<3>(first) = by * Vec3(state.returning.from.segment<3>(first));
   }
   state.motion.jumps_from = {};
-  forget_surface(state);
-  state.scale = object.placement().scale;
-  state.shape = object.surface().shape();
+}
+
+PadPlane seen_from(const Pose& there, const PadPlane& plane) {
+  return {there.apply(plane.middle), there.apply(plane.point), there.rotation * plane.normal};
+}
+
+/// And so does what is known of the surface: what was near is the same.
+void take_surface_over(const Pose& from_other, ProxyState& state) {
+  for (PadMemory& pad : state.pads) {
+    if (pad.plane) pad.plane = seen_from(from_other, *pad.plane);
+    for (PadPlane& side : pad.beside.planes) side = seen_from(from_other, side);
+    pad.seen_from = from_other.apply(pad.seen_from);
+    pad.outward = from_other.rotation * pad.outward;
+  }
+  for (Vec3& joint : state.joints) joint = from_other.apply(joint);
+  for (SurfaceWatch& watch : state.watches) {
+    if (!watch.before) continue;
+    watch.before->point = from_other.apply(watch.before->point);
+    watch.before->normal = from_other.rotation * watch.before->normal;
+  }
+}
+
+void forget_plane(PadMemory& pad) {
+  pad.plane.reset();
+  pad.beside = {};
+  pad.clearance_m = pad.free_m = 0.0;
 }
 
 }  // namespace
@@ -42,11 +71,22 @@ ProxyState::ProxyState(const HandFlesh& flesh) {
 }
 
 std::optional<ShownBefore> go_on(const SeenHand& seen, const Object& object,
+                                 const std::optional<CarrierBefore>& carrier,
                                  ProxyState& state) noexcept {
   if (!seen.goes_on) state.last.reset();
   if (!seen.way_m) return std::nullopt;
   const ShownBefore before{turned(seen.from_last.rotation, state.shown), *seen.way_m};
-  if (seen.at_another) go_on_at(object, seen.from_last, state);
+  if (!seen.at_another) return before;
+  take_hand_over(seen.from_other, state);
+  if (carrier) {
+    take_surface_over(seen.from_other, state);
+    state.scale = carrier->placement.scale;
+    state.shape = carrier->shape;
+  } else {
+    forget_surface(state);
+    state.scale = object.placement().scale;
+    state.shape = object.surface().shape();
+  }
   return before;
 }
 
@@ -65,10 +105,34 @@ bool has_jumped(const HandPose& tracked, double seconds, ProxyState& state) noex
 
 void forget_planes(ProxyState& state) noexcept {
   for (PadMemory& pad : state.pads) {
-    pad.plane.reset();
-    pad.beside = {};
-    pad.clearance_m = pad.free_m = 0.0;
+    forget_plane(pad);
     pad.out_until_m = PadMemory{}.out_until_m;
+  }
+}
+
+void forget_near(const NearChange& change, double hand_radius_m, ProxyState& state) noexcept {
+  // Nothing of the tracked hand is nearer to it than this.
+  const double out_m = change.now.is_there ? change.now.from_m - hand_radius_m
+                                           : std::numeric_limits<double>::infinity();
+  for (PadMemory& pad : state.pads) {
+    pad.out_until_m = std::min(pad.out_until_m, state.way_m + out_m);
+    const double now_m = change.now.at_least(pad.seen_from);
+    if (!pad.plane) {
+      if (now_m >= pad.clearance_m) continue;
+      pad.clearance_m = now_m;
+      pad.free_m = 0.0;
+      continue;
+    }
+    // As long as its plane serves, that is of the nearest surface.
+    const double corner_m = pad.beside.count > 0 ? kCorner_m : 0.0;
+    const double needed_m = std::abs(pad.clearance_m) + 2.0 * pad.same_m + corner_m;
+    if (std::min(now_m, change.before.at_least(pad.seen_from)) > needed_m) continue;
+    const PadPlane plane = *pad.plane;
+    forget_plane(pad);
+    pad.same_m = -1.0;
+    // Another's still says which side of that the pad is on.
+    pad.is_side_lost = NearObjects::place_of(pad.hint) == change.place;
+    if (!pad.is_side_lost) pad.plane = plane;
   }
 }
 

@@ -12,6 +12,7 @@
 #include "nade/surface.h"
 #include "pad_plane.h"
 #include "solver.h"
+#include "surface/near_objects.h"
 #include "tracking/clock.h"
 #include "tracking/glitch.h"
 #include "tracking/object_frame.h"
@@ -115,14 +116,18 @@ struct ProxyState {
 };
 
 /// What is known of the last frame goes on in this one's place, whichever object it is at; of
-/// another one's surface nothing is known.
+/// another one's surface nothing is known, unless that was near and is the carrier now.
 /// Gives how it was drawn, of a hand that was seen then and did not jump.
 std::optional<ShownBefore> go_on(const SeenHand& seen, const Object& object,
+                                 const std::optional<CarrierBefore>& carrier,
                                  ProxyState& state) noexcept;
 /// Takes in whether the tracked hand jumped since the last frame, or back to where it was.
 [[nodiscard]] bool has_jumped(const HandPose& tracked, double seconds, ProxyState& state) noexcept;
 /// The surface has another shape: what its pads saw does not count.
 void forget_planes(ProxyState& state) noexcept;
+/// An object beside the carrier moved, deformed, came or went: what it may have to do with does
+/// not count of what the pads saw.
+void forget_near(const NearChange& change, double hand_radius_m, ProxyState& state) noexcept;
 /// The surface is another's: nothing is known of it.
 void forget_surface(ProxyState& state) noexcept;
 /// The hand is found anew. It may still jump back to where it was.

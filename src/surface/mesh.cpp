@@ -347,6 +347,11 @@ void MeshSurface::refit(std::span<const Eigen::Vector3f> vertices) noexcept {
 
 std::uint64_t MeshSurface::shape() const noexcept { return impl_->shape; }
 
+std::optional<SurfaceBounds> MeshSurface::bounds() const noexcept {
+  const Eigen::AlignedBox3f& box = impl_->tree.bounds();
+  return SurfaceBounds{box.min().cast<double>(), box.max().cast<double>()};
+}
+
 const MeshReport& MeshSurface::report() const { return impl_->report; }
 
 }  // namespace nade

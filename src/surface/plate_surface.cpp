@@ -124,4 +124,14 @@ std::optional<RayHit> PlateSurface::first_hit(const Ray& ray) const noexcept {
   return is_hit ? std::optional(first) : std::nullopt;
 }
 
+std::optional<SurfaceBounds> PlateSurface::bounds() const noexcept {
+  Vec2 low = outline_.front();
+  Vec2 high = low;
+  for (const Vec2& corner : outline_) {
+    low = low.cwiseMin(corner);
+    high = high.cwiseMax(corner);
+  }
+  return SurfaceBounds{{low.x(), -thickness_, low.y()}, {high.x(), 0.0, high.y()}};
+}
+
 }  // namespace nade

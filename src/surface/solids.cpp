@@ -103,6 +103,11 @@ std::optional<SurfacePoint> BoxSurface::closest_point(const Vec3& query, double 
   return answer(query, {distance, normal}, max_distance);
 }
 
+std::optional<SurfaceBounds> BoxSurface::bounds() const noexcept {
+  const Vec3 half = core_ + Vec3::Constant(rounding_);
+  return SurfaceBounds{-half, half};
+}
+
 CylinderSurface::CylinderSurface(double half_height_m, double radius_m, double rounding_m)
     : core_(radius_m - rounding_m, half_height_m - rounding_m),
       rounding_(rounding_m),
@@ -122,6 +127,11 @@ std::optional<SurfacePoint> CylinderSurface::closest_point(const Vec3& query, do
                                                            SurfaceHint& /*hint*/) const noexcept {
   if (!is_query(query, max_distance)) return std::nullopt;
   return answer(query, from_cylinder(query, core_, rounding_), max_distance);
+}
+
+std::optional<SurfaceBounds> CylinderSurface::bounds() const noexcept {
+  const Vec3 half = Vec3(core_.x(), core_.y(), core_.x()) + Vec3::Constant(rounding_);
+  return SurfaceBounds{-half, half};
 }
 
 CylinderSurface capsule_surface(double length_m, double radius_m) {
@@ -156,6 +166,10 @@ std::optional<SurfacePoint> EllipsoidSurface::closest_point(const Vec3& query, d
   const bool found =
       nearest.normal.allFinite() && std::abs(nearest.signed_distance) <= max_distance;
   return found ? std::optional(nearest) : std::nullopt;
+}
+
+std::optional<SurfaceBounds> EllipsoidSurface::bounds() const noexcept {
+  return SurfaceBounds{-half_axes_, half_axes_};
 }
 
 }  // namespace nade

@@ -79,6 +79,10 @@ std::optional<SurfacePoint> SphereSurface::closest_point(const Vec3& query, doub
   return SurfacePoint{radius_ * normal, normal, signed_distance};
 }
 
+std::optional<SurfaceBounds> SphereSurface::bounds() const noexcept {
+  return SurfaceBounds{Vec3::Constant(-radius_), Vec3::Constant(radius_)};
+}
+
 Object::Object(const Surface& surface, const Placement& placement, std::uint64_t instance)
     : surface_(&surface), placement_(placement), instance_(instance) {
   if (!std::isfinite(placement_.scale) || placement_.scale < 0.0) placement_.scale = 0.0;

@@ -63,6 +63,26 @@ std::optional<SurfacePoint> SurfaceGroup::closest_point(const Vec3& query, doubl
   return deepest;
 }
 
+std::optional<SurfaceBounds> SurfaceGroup::bounds() const noexcept {
+  std::optional<SurfaceBounds> all;
+  for (const Object& member : members_) {
+    const Placement& placement = member.placement();
+    if (placement.scale == 0.0) continue;
+    const std::optional<SurfaceBounds> its = member.surface().bounds();
+    if (!its) return std::nullopt;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      const auto end = [&](Eigen::Index axis) {
+        return (corner >> axis & 1U) != 0 ? its->high[axis] : its->low[axis];
+      };
+      const Vec3 point = placement.to_world({end(0), end(1), end(2)});
+      if (!all) all = SurfaceBounds{point, point};
+      all->low = all->low.cwiseMin(point);
+      all->high = all->high.cwiseMax(point);
+    }
+  }
+  return all ? all : SurfaceBounds{};
+}
+
 std::uint64_t SurfaceGroup::shape() const noexcept {
   constexpr std::uint64_t kMix = 0x9e3779b97f4a7c15;  // odd, so that no member's is lost
   std::uint64_t mixed = placing_;

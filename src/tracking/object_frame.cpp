@@ -47,7 +47,7 @@ bool is_nowhere(const Object& object, const HandPose& tracked) noexcept {
 double rounded(double scale) noexcept { return kGrid * std::nearbyint(scale / kGrid); }
 
 SeenHand see_hand(const HandPose& tracked, const Object& object, double seconds,
-                  const HandPose* last, ObjectFrame& frame) noexcept {
+                  const HandPose* last, const Pose* object_before, ObjectFrame& frame) noexcept {
   SeenHand seen;
   const Pose& now = object.placement().pose;
   seen.way_m = way_of(tracked, seconds, last, frame);
@@ -58,6 +58,11 @@ SeenHand see_hand(const HandPose& tracked, const Object& object, double seconds,
   const Pose place = on_grid(frame.home.inverse() * now);
   const Pose before = std::exchange(frame.place, frame.home * place);
   seen.from_last = frame.place.inverse() * before;
+  seen.from_other = seen.from_last;
+  if (object_before != nullptr) {
+    const Pose was = frame.home * on_grid(frame.home.inverse() * *object_before);
+    seen.from_other = was.inverse() * before;
+  }
   HandPose from_home = moved(tracked, frame.home.inverse());
   for (Pose& joint : from_home.joints) joint = on_grid(joint);
   seen.tracked = moved(from_home, place.inverse());

@@ -33,13 +33,15 @@ struct SeenHand {
   bool at_another = false;      ///< object than the last frame's, though it goes on
   std::optional<double> way_m;  ///< it came by itself; none if it was not seen then, or jumped
   Pose from_last;               ///< leads from the last frame's place to this one's
+  Pose from_other;  ///< at another: from the last frame's place to where this one was then
 };
 
 /// Begins a frame: the hand and where the object is, which `frame.home` and `frame.place` say from
 /// then on. `last` is the tracked hand of the last frame at its place, if any. Of another object
-/// than the last frame's nothing is known.
+/// than the last frame's nothing is known, except perhaps where it was then: at `object_before`.
 [[nodiscard]] SeenHand see_hand(const HandPose& tracked, const Object& object, double seconds,
-                                const HandPose* last, ObjectFrame& frame) noexcept;
+                                const HandPose* last, const Pose* object_before,
+                                ObjectFrame& frame) noexcept;
 
 /// Whether an object is not there, or too far from the hand for numbers.
 [[nodiscard]] bool is_nowhere(const Object& object, const HandPose& tracked) noexcept;

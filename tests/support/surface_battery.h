@@ -19,9 +19,25 @@ struct BatteryRegion {
   bool bounded = true;  ///< whether every way from the inside leads out
 };
 
+/// Samples are all over the surface.
+inline void expect_bounds_around(const Surface& surface, const std::vector<Vec3>& samples,
+                                 const BatteryRegion& region) {
+  const auto bounds = surface.bounds();
+  EXPECT_TRUE(bounds || !region.bounded);
+  if (!bounds) return;
+  Vec3 low = samples.front();
+  Vec3 high = low;
+  for (const Vec3& sample : samples) {
+    EXPECT_LE(bounds->distance(sample), region.tolerance_m);
+    low = low.cwiseMin(sample);
+    high = high.cwiseMax(sample);
+  }
+  EXPECT_LT((bounds->high - bounds->low).norm(), 3.0 * (high - low).norm());
+}
+
 /// Rays and points in the region: hits lie on the surface and say rightly on which side they
 /// were; normals are unit; no hit is nearer than the closest point; the sign changes along a ray
-/// exactly where it hits.
+/// exactly where it hits; what bounds it has hold all of it, and are not three times as large.
 inline void run_surface_battery(const Surface& surface, const BatteryRegion& region) {
   SCOPED_TRACE("NADE_TEST_SEED=" + std::to_string(seed()));
   Random random;
@@ -56,6 +72,7 @@ inline void run_surface_battery(const Surface& surface, const BatteryRegion& reg
     samples.push_back(hit->point);
   }
   ASSERT_FALSE(samples.empty());
+  expect_bounds_around(surface, samples, region);
   SurfaceHint hint;
   for (int i = 0; i < 200; ++i) {
     const Vec3 query = random.point(region.low, region.high);

@@ -77,7 +77,7 @@ struct SceneGlitch {
 using SceneFault = std::variant<SceneLoss, SceneSwap, SceneGlitch>;
 
 /// What a hand does to an object, as a file of tests/scenes says it (docs/formats.md, "Scenes").
-struct Scene {
+struct BenchScene {
   std::string name;    ///< the file's, without folder and ending
   std::string what;    ///< in a sentence
   std::string object;  ///< of load_suite_object; empty where it is made of `soup`
@@ -98,17 +98,17 @@ struct Scene {
 };
 
 /// Reads a scene. The error names the file and the element, and says what was expected.
-[[nodiscard]] Result<Scene> read_scene(const std::string& path);
+[[nodiscard]] Result<BenchScene> read_scene(const std::string& path);
 
 /// All scenes (.json) of a folder, by name. The error of the first that cannot be read.
-[[nodiscard]] Result<std::vector<std::shared_ptr<const Scene>>> read_scenes(
+[[nodiscard]] Result<std::vector<std::shared_ptr<const BenchScene>>> read_scenes(
     const std::string& folder);
 
 /// What is touched in a scene.
-[[nodiscard]] Result<SuiteObject> load_scene_object(const Scene& scene);
+[[nodiscard]] Result<SuiteObject> load_scene_object(const BenchScene& scene);
 
 /// A scene as a recording. `object` is its.
-[[nodiscard]] Result<CaseRecording> make_scene_recording(const Scene& scene,
+[[nodiscard]] Result<CaseRecording> make_scene_recording(const BenchScene& scene,
                                                          const SuiteObject& object);
 
 }  // namespace nade

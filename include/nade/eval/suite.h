@@ -14,7 +14,7 @@
 
 namespace nade {
 
-struct Scene;
+struct BenchScene;
 
 /// One stroke of the suite: what moves how over which object.
 struct SuiteCase {
@@ -26,7 +26,7 @@ struct SuiteCase {
   /// How deep the object is pressed against a clip's palms, metres.
   double press_m = 0.03;
   /// A scene that takes the stroke's place (nade/eval/scene.h).
-  std::shared_ptr<const Scene> scene = nullptr;
+  std::shared_ptr<const BenchScene> scene = nullptr;
 
   /// Whether methods are judged by it only and not tuned on it: strokes and tracker noise drawn
   /// from a third of all seeds.
@@ -54,7 +54,7 @@ struct SuiteOptions {
   /// Recordings of real hands, each pressed onto plane, sphere and dog.
   std::vector<std::string> clips = {};
   /// What hands do beside strokes; not in the quick suite.
-  std::vector<std::shared_ptr<const Scene>> scenes = {};
+  std::vector<std::shared_ptr<const BenchScene>> scenes = {};
 };
 
 /// The cases, the same on every machine.
