@@ -12,9 +12,9 @@
 namespace nade::cli {
 
 /// Of one frame and method, by index_of(Handedness).
-using Hands = std::array<std::optional<draw::StagedHand>, 2>;
+using StagedHands = std::array<std::optional<draw::StagedHand>, 2>;
 /// Of one frame, by method.
-using HandsByMethod = std::array<Hands, 2>;
+using HandsByMethod = std::array<StagedHands, 2>;
 
 /// A case of the bench, played by two methods.
 struct PlayedCase {
