@@ -119,8 +119,8 @@ Callbacks handing_over(std::vector<std::string>& buffers) {
   calls.user_data = &buffers;
   calls.FileExists = [](const std::string&, void*) { return true; };
   calls.ExpandFilePath = [](const std::string& name, void*) { return name; };
-  calls.ReadWholeFile = [](std::vector<unsigned char>* bytes, std::string*,
-                           const std::string& name, void* all) {
+  calls.ReadWholeFile = [](std::vector<unsigned char>* bytes, std::string*, const std::string& name,
+                           void* all) {
     std::string& buffer = buffer_named(name, all);
     bytes->assign(buffer.begin(), buffer.end());
     buffer = {};
