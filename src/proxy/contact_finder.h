@@ -7,14 +7,14 @@
 #include "hand/posed_hand.h"
 #include "nade/flesh.h"
 #include "state.h"
+#include "surface/near_objects.h"
 #include "surface/scaled_surface.h"
 #include "tuning.h"
 
 namespace nade {
 
-/// No surface is looked for farther away: a hand that is found anew is got out of the object if it
-/// lies no deeper.
-inline constexpr double kDeepest_m = 0.3;
+/// A hand that is found anew is got out of the object if it lies no deeper.
+inline constexpr double kDeepest_m = kWithinReach_m;
 
 /// A hand found anew has a term for every skin point; those for a corner's other sides are left out
 /// where they would be more. The rest is for what draws near, lands and holds back.

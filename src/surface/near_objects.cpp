@@ -3,37 +3,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include "member_hint.h"
+
 namespace nade {
 namespace {
 
-/// A hand looks no farther for a surface, besides what it has of its own skin around its joints.
-constexpr double kWithinReach_m = 0.3;
+/// A hand's own skin around its joints.
 constexpr double kSkin_m = 0.03;
 /// Numerics: what moves by less, metres and parts of a quaternion, is only rounded otherwise.
 constexpr double kStill = 1e-6;
 /// What goes farther in a frame, where the hand is, was put elsewhere.
 constexpr double kSudden_m = 0.1;
 
-// A hint says which place was the nearest in its first bits, and then that one's element.
-constexpr std::uint32_t kElementWidth = 26;
-constexpr std::uint32_t kElementUnknown = (1U << kElementWidth) - 1U;
-static_assert(NearObjects::kMost == 1U << (32U - kElementWidth));
-
-SurfaceHint hint_in(std::size_t place, SurfaceHint all) {
-  if (NearObjects::place_of(all) != place) return {};
-  const std::uint32_t element = all.element & kElementUnknown;
-  return {element == kElementUnknown ? SurfaceHint::kNone : element};
-}
-
-SurfaceHint hint_for_all(std::size_t place, SurfaceHint its) {
-  const std::uint32_t element = std::min(its.element, kElementUnknown);
-  return {static_cast<std::uint32_t>(place) << kElementWidth | element};
-}
-
 bool is_still(const Pose& one, const Pose& other) {
   return (one.position - other.position).norm() < kStill &&
          (one.rotation.coeffs() - other.rotation.coeffs()).norm() < kStill;
 }
+
+static_assert(NearObjects::kMost <= kMostMembers);
 
 /// How far what is there goes from one pose to the other.
 double way_between(const Pose& before, const Pose& now, const Vec3& there) {
@@ -49,9 +36,12 @@ double ObjectDistance::at_least(const Vec3& point) const noexcept {
   return std::max(from_there_m, placement.scale * bounds->distance(placement.to_local(point)));
 }
 
-std::size_t NearObjects::place_of(const SurfaceHint& hint) noexcept {
-  return hint.element >> kElementWidth;
+Vec3 velocity_at(const Vec3& point_world, const Placement& before, const Placement& now,
+                 double seconds) noexcept {
+  return (point_world - before.to_world(now.to_local(point_world))) / seconds;
 }
+
+std::size_t NearObjects::place_of(const SurfaceHint& hint) noexcept { return member_of(hint); }
 
 void NearObjects::forget() noexcept {
   if (version_ == Version{}) return;
@@ -113,14 +103,14 @@ void NearObjects::measure_hand(const HandPose& tracked, const HandPose* drawn) n
     }
   }
   radius_m_ = std::sqrt(farthest) + kSkin_m;
+  reach_m_ = radius_m_ + kWithinReach_m;
 }
 
 void NearObjects::look_around(const Scene& scene) noexcept {
   found_count_ = 0;
-  const double reach_m = radius_m_ + kWithinReach_m;
   for (std::size_t i = 0; i < scene.balls_.size(); ++i) {
     const Scene::Ball& ball = scene.balls_[i];
-    const double within_m = reach_m + ball.radius_m;
+    const double within_m = reach_m_ + ball.radius_m;
     if (!((ball.middle - middle_).squaredNorm() <= within_m * within_m)) continue;
     const Scene::Member& member = scene.members_[i];
     const Placement& placement = member.object.placement();
@@ -128,7 +118,7 @@ void NearObjects::look_around(const Scene& scene) noexcept {
     if (member.bounds) {
       found.bounds_m = placement.scale * member.bounds->distance(placement.to_local(middle_));
     }
-    if (found.bounds_m <= reach_m) add_found(found);
+    if (found.bounds_m <= reach_m_) add_found(found);
   }
 }
 
@@ -158,7 +148,6 @@ void NearObjects::find_far_carrier(const Scene& scene) noexcept {
 }
 
 void NearObjects::find_places(const Scene& scene) noexcept {
-  const double reach_m = radius_m_ + kWithinReach_m;
   for (Found& each : found()) {
     const Object& object = scene.members_[each.member].object;
     const auto place = std::find_if(places_.begin(), places_.end(), [&](const Place& kept) {
@@ -167,8 +156,8 @@ void NearObjects::find_places(const Scene& scene) noexcept {
     each.place = static_cast<std::size_t>(place - places_.begin());
     if (found_count_ == 1) continue;
     SurfaceHint none;
-    const auto nearest = object.closest_point(middle_, reach_m, none);
-    each.from_m = nearest ? nearest->signed_distance : reach_m;
+    const auto nearest = object.closest_point(middle_, reach_m_, none);
+    each.from_m = nearest ? nearest->signed_distance : reach_m_;
   }
 }
 
@@ -302,8 +291,7 @@ Vec3 NearObjects::velocity_of(std::size_t place, const Vec3& point_world,
                               double seconds) const noexcept {
   const Place& its = places_[place];
   if (!its.before) return Vec3::Zero();
-  const Vec3 local = its.object.placement().to_local(point_world);
-  return (point_world - its.before->to_world(local)) / seconds;
+  return velocity_at(point_world, *its.before, its.object.placement(), seconds);
 }
 
 std::size_t NearObjects::nearest_to(const Vec3& point_world) const noexcept {
@@ -316,10 +304,9 @@ std::size_t NearObjects::nearest_to(const Vec3& point_world) const noexcept {
 NearObjects::Version NearObjects::version_of(const Scene& scene) const noexcept {
   Version version{scene.number_, scene.changes_, 0};
   if (version.scene != version_.scene || version.changes != version_.changes) return version;
-  constexpr std::uint64_t kMix = 0x9e3779b97f4a7c15;  // odd, so that no object's is lost
   if (carrier_ != kNone) version.shapes = shape();
   for (std::size_t i = 0; i < other_count_; ++i) {
-    version.shapes = kMix * version.shapes + places_[others_[i]].object.surface().shape();
+    version.shapes = with_shape(version.shapes, places_[others_[i]].object.surface().shape());
   }
   return version;
 }

@@ -16,6 +16,14 @@ namespace nade {
 // is near. The others are where they are against that one; it is their motion against it that
 // counts.
 
+/// No surface is looked for farther from a hand.
+inline constexpr double kWithinReach_m = 0.3;
+
+/// The velocity, at a point of the world, of what was placed one way so many seconds ago and is
+/// another way now.
+[[nodiscard]] Vec3 velocity_at(const Vec3& point_world, const Placement& before,
+                               const Placement& now, double seconds) noexcept;
+
 /// What is known of how far an object is from anywhere. In the carrier's frame, metres.
 struct ObjectDistance {
   bool is_there = true;
@@ -67,6 +75,8 @@ class NearObjects final : public Surface {
   void gather(const Scene& scene, const HandPose& tracked, const HandPose* drawn) noexcept;
   /// The next hand is another: nothing of the last frame counts.
   void forget() noexcept;
+  /// Whether the last hand was one at a scene.
+  [[nodiscard]] bool has_scene() const noexcept { return version_.scene != 0; }
 
   /// All that is near, placed as the carrier; `nothing()` without any.
   [[nodiscard]] Object object() const noexcept;
@@ -153,6 +163,7 @@ class NearObjects final : public Surface {
   // Of this frame.
   Vec3 middle_ = Vec3::Zero();  ///< of the hand, world
   double radius_m_ = 0.0;
+  double reach_m_ = 0.0;  ///< from there: what is farther off is not near
   std::array<Found, kMost> found_;
   std::size_t found_count_ = 0;
   std::array<std::size_t, kMost> others_{};  ///< places of those beside the carrier

@@ -2,31 +2,15 @@
 
 #include <utility>
 
+#include "member_hint.h"
 #include "nade/assert.h"
 #include "surface_query.h"
 
 namespace nade {
-namespace {
-
-// A hint says which member was the nearest, in its first byte, and that one's element.
-constexpr std::uint32_t kElementBits = 24;
-constexpr std::uint32_t kNoElement = (1U << kElementBits) - 1U;
-
-SurfaceHint hint_of(std::size_t member, SurfaceHint group) {
-  if (group.element >> kElementBits != member) return {};
-  const std::uint32_t element = group.element & kNoElement;
-  return {element == kNoElement ? SurfaceHint::kNone : element};
-}
-
-SurfaceHint group_hint(std::size_t member, SurfaceHint its) {
-  const std::uint32_t element = its.element < kNoElement ? its.element : kNoElement;
-  return {static_cast<std::uint32_t>(member) << kElementBits | element};
-}
-
-}  // namespace
 
 SurfaceGroup::SurfaceGroup(std::vector<Object> members)
     : members_(std::move(members)), placing_(new_shape()) {
+  static_assert(SurfaceGroup::kMostMembers == nade::kMostMembers);
   NADE_ASSERT(members_.size() <= kMostMembers);
 }
 
@@ -54,11 +38,11 @@ std::optional<SurfacePoint> SurfaceGroup::closest_point(const Vec3& query, doubl
   if (!is_query(query, max_distance)) return deepest;
   const SurfaceHint before = hint;
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    SurfaceHint its = hint_of(i, before);
+    SurfaceHint its = hint_in(i, before);
     const auto found = members_[i].closest_point(query, max_distance, its);
     if (!found || (deepest && found->signed_distance >= deepest->signed_distance)) continue;
     deepest = found;
-    hint = group_hint(i, its);
+    hint = hint_for_all(i, its);
   }
   return deepest;
 }
@@ -84,9 +68,8 @@ std::optional<SurfaceBounds> SurfaceGroup::bounds() const noexcept {
 }
 
 std::uint64_t SurfaceGroup::shape() const noexcept {
-  constexpr std::uint64_t kMix = 0x9e3779b97f4a7c15;  // odd, so that no member's is lost
   std::uint64_t mixed = placing_;
-  for (const Object& member : members_) mixed = kMix * mixed + member.surface().shape();
+  for (const Object& member : members_) mixed = with_shape(mixed, member.surface().shape());
   return mixed;
 }
 
