@@ -53,7 +53,7 @@ std::size_t joints_seen(const Vec3& eye, const HandsByMethod& by_method, const O
       if (!object.first_hit({eye, way.normalized(), way.norm()})) ++seen;
     }
   };
-  for (const StagedHands& hands : by_method) {
+  for (const draw::StagedHands& hands : by_method) {
     for (const auto& staged : hands) {
       if (!staged) continue;
       look(staged->tracked);
@@ -71,7 +71,7 @@ std::array<draw::Camera, kViews> cameras_of(std::span<const HandsByMethod> momen
   Eigen::AlignedBox3d box;
   const HandPose* hand = nullptr;
   for (const HandsByMethod& by_method : moments) {
-    for (const StagedHands& hands : by_method) {
+    for (const draw::StagedHands& hands : by_method) {
       for (const auto& staged : hands) {
         if (!staged) continue;
         if (!hand || &by_method == moments.data()) hand = &staged->tracked;

@@ -27,8 +27,6 @@ constexpr double kPanelAspect = 1.16;
 const Color kInk(0.015F, 0.02F, 0.03F);
 const Color kQuiet(0.12F, 0.14F, 0.17F);
 
-using Hands = std::array<std::optional<draw::StagedHand>, 2>;
-
 struct Layout {
   int columns = 4;
   int panel_width = 0;
@@ -55,9 +53,9 @@ struct Ball {
   double radius_m = 0.1;
 };
 
-Ball ball_about(const std::vector<Hands>& moments) {
+Ball ball_about(const std::vector<draw::StagedHands>& moments) {
   Eigen::AlignedBox3d box;
-  for (const Hands& hands : moments) {
+  for (const draw::StagedHands& hands : moments) {
     for (const auto& hand : hands) {
       if (!hand) continue;
       for (const Pose& joint : hand->tracked.joints) box.extend(joint.position);
@@ -68,7 +66,7 @@ Ball ball_about(const std::vector<Hands>& moments) {
   return {box.center(), 0.5 * box.diagonal().norm()};
 }
 
-const draw::StagedHand* first_hand(const Hands& hands) {
+const draw::StagedHand* first_hand(const draw::StagedHands& hands) {
   for (const std::size_t side : {index_of(Handedness::right), index_of(Handedness::left)}) {
     if (hands[side]) return &*hands[side];
   }

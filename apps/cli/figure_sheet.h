@@ -17,7 +17,7 @@ struct FigureRow {
   double air = 0.87;  ///< of the picture about the hand; 1 has more of the object in it
   PlacedObject placed;
   /// The same moment by each method, in the order of the columns.
-  std::vector<std::array<std::optional<draw::StagedHand>, 2>> by_method;
+  std::vector<draw::StagedHands> by_method;
 };
 
 /// What the points of the last column are called.

@@ -46,7 +46,7 @@ struct Survey {
 /// One frame to be shown.
 struct Moment {
   std::int64_t time_ns = 0;
-  std::array<std::optional<draw::StagedHand>, 2> hands{};
+  draw::StagedHands hands{};
 };
 
 /// What is played: a tracked recording, corrected on the way or in a recording of its own; or a

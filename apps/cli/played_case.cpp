@@ -9,9 +9,9 @@ namespace {
 
 constexpr std::size_t kProbeEvery = 3;  // frames between those that are looked at for pressing
 
-StagedHands hands_of(const PlayedCase& played, std::size_t frame, std::size_t method,
-                     const DrawnHands& drawn) {
-  StagedHands hands;
+draw::StagedHands hands_of(const PlayedCase& played, std::size_t frame, std::size_t method,
+                           const DrawnHands& drawn) {
+  draw::StagedHands hands;
   for (std::size_t side = 0; side < 2; ++side) {
     const auto& tracked = played.tracked.frames[frame].hands[side];
     const auto& corrected = played.corrected[method].frames[frame].hands[side];

@@ -11,10 +11,8 @@
 
 namespace nade::cli {
 
-/// Of one frame and method, by index_of(Handedness).
-using StagedHands = std::array<std::optional<draw::StagedHand>, 2>;
 /// Of one frame, by method.
-using HandsByMethod = std::array<StagedHands, 2>;
+using HandsByMethod = std::array<draw::StagedHands, 2>;
 
 /// A case of the bench, played by two methods.
 struct PlayedCase {

@@ -90,9 +90,7 @@ class Session {
   /// Goes on by `step_s` seconds (> 0).
   void advance(double step_s, const Aim& aim);
 
-  [[nodiscard]] const std::array<std::optional<draw::StagedHand>, 2>& hands() const {
-    return hands_;
-  }
+  [[nodiscard]] const draw::StagedHands& hands() const { return hands_; }
   /// The same as the corrector gave them, by index_of(Handedness); null where there is none.
   [[nodiscard]] const CorrectedHand* corrected(std::size_t side) const {
     return hands_[side] ? corrected_[side] : nullptr;
@@ -148,7 +146,7 @@ class Session {
   std::int64_t mouse_time_ns_ = 0;
   std::array<HandCorrector, 2> correctors_;
   std::array<std::optional<double>, 2> scales_{};
-  std::array<std::optional<draw::StagedHand>, 2> hands_{};
+  draw::StagedHands hands_{};
   std::array<const CorrectedHand*, 2> corrected_{};  ///< the correctors' own
   Figures figures_;
   std::vector<std::string> notices_;

@@ -40,10 +40,13 @@ struct StagedHand {
   Method method = Method::none;
 };
 
+/// By index_of(Handedness).
+using StagedHands = std::array<std::optional<StagedHand>, 2>;
+
 /// Everything to be shown at one moment.
 struct StageFrame {
-  std::array<std::optional<StagedHand>, 2> hands{};  ///< by index_of(Handedness)
-  Shown shown = Shown::corrected;                    ///< both: the tracked hand as a ghost
+  StagedHands hands{};
+  Shown shown = Shown::corrected;  ///< both: the tracked hand as a ghost
   Overlays overlays;
   /// Of the object, metres: it gives way to corrected skin that lies in it by about so much.
   double softness_m = 0.0;
