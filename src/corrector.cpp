@@ -5,13 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
-#include <limits>
-#include <numbers>
 #include <span>
-#include <string>
 #include <utility>
 
+#include "hand/carry_over.h"
 #include "nade/assert.h"
 #include "proxy/proxy_hand.h"
 #include "ramps.h"
@@ -20,8 +17,6 @@
 
 namespace nade {
 namespace {
-
-constexpr std::array<std::string_view, 3> kMethodNames{"none", "paper", "nade"};  // as Method
 
 /// A correction that changes by more than this many times the tracked hand's own motion, and
 /// the margin, has jumped. The motion counts up to a limit: beyond it the hand itself jumped.
@@ -40,8 +35,6 @@ constexpr std::int64_t kLengthFrames = 512;
 /// before them.
 constexpr std::int64_t kOtherLengthFrames = 30;
 constexpr double kOtherLength = 0.02;
-
-constexpr double kLargestHand_m = 0.5;
 
 /// A hand that the paper's method would draw farther off is in something that is no object of a
 /// hand's, or placed absurdly.
@@ -106,67 +99,6 @@ bool is_near(const HandPose& drawn, const HandPose& tracked) {
   return true;
 }
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kLeast = std::numeric_limits<double>::min();
-
-/// A number of the options, and what it may be.
-struct OptionRange {
-  const char* name;
-  double value;
-  double least;
-  double most;
-};
-
-Error bad_option(const std::string& name, const std::string& expected) {
-  return {ErrorCode::out_of_range, name + ": expected " + expected};
-}
-
-Status first_error(std::initializer_list<OptionRange> options) {
-  for (const OptionRange& option : options) {
-    if (option.value >= option.least && option.value <= option.most) continue;
-    const std::string from = option.least == kLeast ? "above 0" : std::to_string(option.least);
-    const std::string to = option.most < std::numeric_limits<double>::max()
-                               ? " to " + std::to_string(option.most)
-                               : std::string();
-    return bad_option(option.name, from + to + ", found " + std::to_string(option.value));
-  }
-  return ok_status();
-}
-
-/// The joint that a joint is turned and shifted against; of the wrist itself.
-std::size_t joint_before(std::size_t joint) {
-  for (std::size_t d = 0; d < kDigitCount; ++d) {
-    if (joint == index_of(joints_of(digit_at(d)).metacarpal)) return index_of(Joint::wrist);
-  }
-  return joint == index_of(Joint::palm) ? index_of(Joint::wrist) : joint - 1;
-}
-
-/// What was corrected from `tracked` to `drawn`, on `newer`: the wrist's shift and turn in the
-/// world, every other joint's against the one before it.
-HandPose carried_over(const HandPose& tracked, const HandPose& drawn, const HandPose& newer) {
-  HandPose result = newer;
-  const std::size_t wrist = index_of(Joint::wrist);
-  const Pose& from = tracked.joints[wrist];
-  const Pose& to = drawn.joints[wrist];
-  result.joints[wrist].position += to.position - from.position;
-  result.joints[wrist].rotation =
-      (to.rotation * from.rotation.conjugate() * newer.joints[wrist].rotation).normalized();
-  const auto local = [](const HandPose& hand, std::size_t joint) {
-    return hand.joints[joint_before(joint)].inverse() * hand.joints[joint];
-  };
-  for (std::size_t joint = 0; joint < kJointCount; ++joint) {
-    if (joint == wrist) continue;
-    const Pose before = local(tracked, joint);
-    const Pose after = local(drawn, joint);
-    Pose now = local(newer, joint);
-    now.position += after.position - before.position;
-    now.rotation = after.rotation * before.rotation.conjugate() * now.rotation;
-    result.joints[joint] = result.joints[joint_before(joint)] * now;
-    result.joints[joint].rotation.normalize();
-  }
-  return result;
-}
-
 /// What was remembered of one object of a scene, seen from another.
 void go_on_at(const CarrierBefore& carrier, ContactMemory& memory) {
   if (memory.held_palm_ray) {
@@ -185,29 +117,10 @@ bool touches(const Contacts& contacts) {
 
 }  // namespace
 
-std::string_view name_of(Method method) { return kMethodNames[static_cast<std::size_t>(method)]; }
-
-std::optional<Method> method_from_name(std::string_view name) {
-  const auto found = std::find(kMethodNames.begin(), kMethodNames.end(), name);
-  if (found == kMethodNames.end()) return std::nullopt;
-  return static_cast<Method>(found - kMethodNames.begin());
-}
-
 std::array<Vec3, kJointCount> no_velocity() noexcept {
   std::array<Vec3, kJointCount> velocity;
   velocity.fill(Vec3::Zero());
   return velocity;
-}
-
-CorrectorOptions paper_literal() {
-  CorrectorOptions options;
-  options.method = Method::paper;
-  options.contact.test_point = TestPoint::joint;
-  options.contact.counted_hits = CountedHits::any;
-  options.contact.entry_side = EntrySide::forgotten;
-  options.contact.full_turn_depth_m = 0.0;
-  options.release_s = 0.0;
-  return options;
 }
 
 std::optional<SkinDepths> believable_radii(const HandPose& hand) noexcept {
@@ -220,36 +133,6 @@ std::optional<SkinDepths> believable_radii(const HandPose& hand) noexcept {
     depths.depth_m[i] = radius;
   }
   return depths;
-}
-
-Status check_options(const SettleOptions& options) {
-  return first_error({{"softness_m", options.softness_m, 0.0, kSoftest_m},
-                      {"softness_depth_m", options.softness_depth_m, kLeast, kInfinity},
-                      {"friction.coefficient", options.friction.coefficient, 0.0, 2.0},
-                      {"friction.kinetic", options.friction.kinetic, 0.0, 1.0},
-                      {"friction.longest_lag_m", options.friction.longest_lag_m, 0.0, kInfinity}});
-}
-
-Status check_options(const CorrectorOptions& options) {
-  constexpr double kAny = std::numeric_limits<double>::max();
-  Status status = first_error(
-      {{"skin_hand_length_m", options.skin_hand_length_m, kLeast, kAny},
-       {"hand_length_m", options.hand_length_m, 0.0, kLargestHand_m},
-       {"release_s", options.release_s, 0.0, 1.0},
-       {"contact.full_turn_depth_m", options.contact.full_turn_depth_m, 0.0, 0.2},
-       {"contact.push_through_limit_m", options.contact.push_through_limit_m, 0.0, kInfinity},
-       {"fingers.max_ray_turn_rad", options.fingers.max_ray_turn_rad, 0.0,
-        0.5 * std::numbers::pi}});
-  for (std::size_t i = 0; status.ok() && i < kPartCount; ++i) {
-    status = first_error({{"skin.depth_m", options.skin.depth_m[i], -kAny, kAny}});
-  }
-  for (const Handedness side : {Handedness::left, Handedness::right}) {
-    const auto& flesh = options.flesh[index_of(side)];
-    if (!status.ok() || !flesh) continue;
-    if (flesh->side != side) return bad_option("flesh", "a hand's on its own side");
-    status = first_error({{"flesh: hand_length_m", flesh->hand_length_m, kLeast, kAny}});
-  }
-  return status.ok() ? check_options(options.settle) : status;
 }
 
 HandCorrector::HandCorrector(const CorrectorOptions& options)
@@ -339,14 +222,14 @@ void HandCorrector::correct(const HandPose& tracked, Touchable objects,
   }
   const Object object = scene != nullptr ? near_->object() : *std::get<const Object*>(objects);
   if (options_.method == Method::paper) correct_by_paper(tracked, object, time_ns);
-  if (options_.method == Method::nade) follow_proxy(tracked, object, scene != nullptr, time_ns);
+  if (options_.method == Method::nade) follow_proxy(tracked, object, time_ns);
   if (limit.is_used_up()) {
     // What was found before it was used up and what was not do not make a hand.
     reset();
     result_ = {tracked, HandStatus::free, {}, {}, {}};
     return;
   }
-  measure_motion(object, scene != nullptr, time_ns);
+  measure_motion(object, time_ns);
 }
 
 void HandCorrector::add_contact(const SkinContact& contact, std::size_t place) noexcept {
@@ -369,8 +252,7 @@ void HandCorrector::add_part_contacts() noexcept {
 }
 
 /// How the drawn hand goes, in the world and against what it touches; and whom that is.
-void HandCorrector::measure_motion(const Object& object, bool is_of_scene,
-                                   std::int64_t time_ns) noexcept {
+void HandCorrector::measure_motion(const Object& object, std::int64_t time_ns) noexcept {
   const std::optional<Shown> before =
       std::exchange(shown_, Shown{result_.pose, object.identity(), object.placement(), time_ns});
   const double frame_s =
@@ -382,16 +264,15 @@ void HandCorrector::measure_motion(const Object& object, bool is_of_scene,
   }
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     SkinContact& contact = contacts[i];
-    contact.object = is_of_scene ? near_->id_of(touched_[i]) : object.identity().instance;
+    contact.object = near_->has_scene() ? near_->id_of(touched_[i]) : object.identity().instance;
     if (!before) continue;
     const Vec3 on_bone = result_.pose[contact.bone].inverse().apply(contact.point);
     const Vec3 skin_mps = (contact.point - before->drawn[contact.bone].apply(on_bone)) / frame_s;
     Vec3 object_mps = Vec3::Zero();
-    if (is_of_scene) {
+    if (near_->has_scene()) {
       object_mps = near_->velocity_of(touched_[i], contact.point, frame_s);
     } else if (before->object == object.identity()) {
-      const Vec3 local = object.placement().to_local(contact.point);
-      object_mps = (contact.point - before->placement.to_world(local)) / frame_s;
+      object_mps = velocity_at(contact.point, before->placement, object.placement(), frame_s);
     }
     contact.velocity_mps = skin_mps - object_mps;
   }
@@ -401,7 +282,7 @@ void HandCorrector::measure_motion(const Object& object, bool is_of_scene,
   if (deepest != contacts.end()) {
     std::swap(touched_[0], touched_[static_cast<std::size_t>(deepest - contacts.begin())]);
   }
-  if (is_of_scene) near_->touch(std::span(touched_).first(contacts.size()));
+  if (near_->has_scene()) near_->touch(std::span(touched_).first(contacts.size()));
 }
 
 void HandCorrector::correct_by_paper(const HandPose& tracked, const Object& object,
@@ -431,13 +312,13 @@ void HandCorrector::correct_by_paper(const HandPose& tracked, const Object& obje
   release(tracked, {seated.correction, laid.bend}, time_ns);
 }
 
-void HandCorrector::follow_proxy(const HandPose& tracked, const Object& object, bool is_of_scene,
+void HandCorrector::follow_proxy(const HandPose& tracked, const Object& object,
                                  std::int64_t time_ns) noexcept {
   const double since_last_s = last_ ? seconds(last_->time_ns, time_ns) : 0.0;
   const double scale = hand_length_m_ / flesh_of(tracked.side).hand_length_m;
   const ProxyResult proxy = proxies_[index_of(tracked.side)]->update(
       tracked, scale, object, near_->rearrangement(), since_last_s,
-      is_of_scene ? near_->feel() : options_.settle);
+      near_->has_scene() ? near_->feel() : options_.settle);
   result_.pose = proxy.hand;
   result_.contacts = proxy.contacts;
   for (const BoneContact& bone : std::span(proxy.bones).first(proxy.bone_count)) {

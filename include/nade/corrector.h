@@ -195,13 +195,12 @@ class HandCorrector {
   void correct(const HandPose& tracked, Touchable objects, std::int64_t time_ns) noexcept;
   void add_contact(const SkinContact& contact, std::size_t place) noexcept;
   void add_part_contacts() noexcept;
-  void measure_motion(const Object& object, bool is_of_scene, std::int64_t time_ns) noexcept;
+  void measure_motion(const Object& object, std::int64_t time_ns) noexcept;
   void start_frame(const HandPose& tracked, std::int64_t time_ns) noexcept;
   void follow_length(double length_m) noexcept;
   void correct_by_paper(const HandPose& tracked, const Object& object,
                         std::int64_t time_ns) noexcept;
-  void follow_proxy(const HandPose& tracked, const Object& object, bool is_of_scene,
-                    std::int64_t time_ns) noexcept;
+  void follow_proxy(const HandPose& tracked, const Object& object, std::int64_t time_ns) noexcept;
   void forget_proxies() noexcept;
   [[nodiscard]] const HandFlesh& flesh_of(Handedness side) const noexcept;
   [[nodiscard]] SkinDepths skin_of(const HandPose& tracked) const noexcept;

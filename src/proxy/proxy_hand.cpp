@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 #include "contact_finder.h"
 #include "coupling.h"
@@ -14,6 +13,7 @@
 #include "mode.h"
 #include "nade/assert.h"
 #include "ramps.h"
+#include "touch_report.h"
 #include "way_out.h"
 
 namespace nade {
@@ -107,13 +107,11 @@ class ProxyFrame {
   [[nodiscard]] StepRange range_at(int round) const;
   void take_step(const PosedHand& posed, int round);
   [[nodiscard]] bool is_pushed(const HandFreedoms& step) const;
-  [[nodiscard]] bool is_near(const PartTouch& part) const;
   void remember_touch();
   void remember_frame(const HandPose& drawn);
   [[nodiscard]] bool is_displaced() const;
   [[nodiscard]] HandPose on_its_way_back(const HandPose& settled);
   ProxyResult finish();
-  void find_bones(ProxyResult& result) const;
 
   const ProxyTuning& tuning_;
   const ScaledSurface& object_;
@@ -326,11 +324,6 @@ bool ProxyFrame::is_pushed(const HandFreedoms& step) const {
          });
 }
 
-/// Whether the person has pressed a part in where the drawn one is not far off.
-bool ProxyFrame::is_near(const PartTouch& part) const {
-  return part.depth_m > 0.0 && part.gap_m < tuning_.adhesion_reach_m;
-}
-
 void ProxyFrame::remember_touch() {
   SurfaceTouch& touch = state_.touch;
   touch.deepest_m = found_.deepest_m;
@@ -395,7 +388,7 @@ ProxyResult ProxyFrame::finish() {
   if (!pushed_ && near) correction_ = {};
   const bool touches =
       pushed_ || std::any_of(found_.parts.begin(), found_.parts.end(),
-                             [this](const PartTouch& part) { return is_near(part); });
+                             [this](const PartTouch& part) { return is_pressed(part, tuning_); });
   state_.touch.air_s = touches ? 0.0 : state_.touch.air_s + seconds_;
   const HandPose hand = is_none(correction_) ? model_.tracked : posed_.hand;
   remember_touch();
@@ -405,60 +398,11 @@ ProxyResult ProxyFrame::finish() {
   state_.mode = mode_after(touches, pushed_, state_);
   result.touches = touches;
   result.corrected = !is_none(correction_) || state_.mode == ProxyMode::returning;
-  for (std::size_t i = 0; i < kPartCount; ++i) {
-    const PartTouch& part = found_.parts[i];
-    if (!is_near(part)) continue;
-    PartContact contact;
-    contact.ray_origin = search_.tracked.position(*part.point);
-    contact.ray_direction = contact.skin_direction = contact.normal = part.plane.normal;
-    const Vec3 skin = posed_.flesh.position(*part.point);
-    contact.surface_point =
-        skin - part.plane.normal.dot(skin - part.plane.point) * part.plane.normal;
-    contact.target = result.hand[joint_of(part_at(i))].position;
-    contact.skin_depth_m = part.plane.normal.dot(contact.target - contact.surface_point);
-    contact.depth_m = part.depth_m;
-    result.contacts[i] = contact;
-  }
+  report_parts(search_, posed_, found_, result);
   // One that comes back is not where it was settled.
-  if (state_.mode != ProxyMode::returning) find_bones(result);
+  if (state_.mode != ProxyMode::returning) report_bones(posed_, found_, result);
   return result;
 }
-
-void ProxyFrame::find_bones(ProxyResult& result) const {
-  for (std::size_t i = 0; i < kBones.size(); ++i) {
-    const BoneTouch& touch = found_.bones[i];
-    if (touch.point == nullptr) continue;
-    const Vec3 skin = posed_.flesh.position(*touch.point);
-    const double gap_m = touch.plane.normal.dot(skin - touch.plane.point);
-    if (gap_m > kTouches_m) continue;
-    result.bones[result.bone_count++] = {kBones[i], skin - gap_m * touch.plane.normal,
-                                         touch.plane.normal, touch.depth_m, touch.hint};
-  }
-}
-
-namespace {
-
-/// What became of a tracked hand at such an object, in the world; the tracked one itself where
-/// nothing did.
-ProxyResult brought_back(const Pose& object, const HandPose& tracked, ProxyResult result) {
-  result.hand = result.corrected ? moved(result.hand, object) : tracked;
-  for (std::optional<PartContact>& contact : result.contacts) {
-    if (!contact) continue;
-    for (Vec3* point : {&contact->ray_origin, &contact->surface_point, &contact->target}) {
-      *point = object.apply(*point);
-    }
-    for (Vec3* way : {&contact->ray_direction, &contact->normal, &contact->skin_direction}) {
-      *way = object.rotation * *way;
-    }
-  }
-  for (BoneContact& contact : std::span(result.bones).first(result.bone_count)) {
-    contact.point = object.apply(contact.point);
-    contact.normal = object.rotation * contact.normal;
-  }
-  return result;
-}
-
-}  // namespace
 
 ProxyHand::ProxyHand(const HandFlesh& flesh, const ProxyTuning& tuning)
     : flesh_(&flesh), tuning_(tuning), state_(std::make_unique<ProxyState>(flesh)) {}
@@ -478,7 +422,7 @@ ProxyResult ProxyHand::update(const HandPose& tracked, double scale, const Objec
   const ScaledSurface surface(object);
   ProxyFrame frame(seen, before, *flesh_, tuning_, rounded(scale), surface, around, seconds,
                    options, *state_);
-  return brought_back(state_->object.place, tracked, frame.run());
+  return in_world(state_->object.place, tracked, frame.run());
 }
 
 void ProxyHand::forget() noexcept {
