@@ -99,9 +99,9 @@ SkinRegion region_at(Joint bone, const PalmPlace& place) {
 }  // namespace
 
 std::string_view name_of(SkinRegion region) {
-  constexpr std::array<std::string_view, kSkinRegionCount> kNames{
+  constexpr std::array<std::string_view, kSkinRegionCount> kRegionNames{
       "tip", "finger", "thenar", "knuckles", "heel", "hollow", "back"};
-  return kNames[static_cast<std::size_t>(region)];
+  return kRegionNames[static_cast<std::size_t>(region)];
 }
 
 SkinMap measure_skin(const HandMesh& mesh) {
