@@ -21,6 +21,7 @@ TEST_F(XrCommand, WhatCannotBeWrittenIsSaidBeforeTheHeadsetStarts) {
                  "nodir/x.jsonl: expected to write the panel log, but: No such file or directory");
   expect_failure(nade("xr --frames 1 --screenshot nodir/eyes.png"),
                  "nodir/eyes-left.png: expected to write the output");
+  expect_misuse(nade("xr --eye-scale 3"), "--eye-scale: expected a number from 0.1 to 2");
   expect_misuse(nade("xr --record /dev/null"), "--record: expected the name of a file");
   EXPECT_EQ(files(), std::vector<std::string>{});
 }

@@ -80,6 +80,11 @@ void add_xr(CLI::App& app, Action& action) {
       ->add_option("--record", arguments->run.record,
                    "records the tracked hands there, and the corrected ones beside it")
       ->type_name("FILE");
+  command
+      ->add_option("--eye-scale", arguments->run.eye_scale,
+                   "each eye's picture so many times as wide and high as the headset asks")
+      ->type_name("FACTOR")
+      ->transform(number_in(0.1, 2.0));
   command->add_option("--frames", arguments->run.frames, "leaves after so many frames")
       ->type_name("N")
       ->transform(whole_number_in(1, 100'000'000));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <string_view>
 #include <utility>
@@ -46,6 +47,16 @@ Result<Headset> Headset::find(std::span<const GraphicsWay> graphics) {
   if (Status status = headset.find_system(); !status) return status.error();
   if (Status status = headset.find_views(); !status) return status.error();
   return headset;
+}
+
+void Headset::scale_eyes(double factor) {
+  const auto scaled = [factor](int length, int largest) {
+    return std::clamp(static_cast<int>(std::lround(factor * length)), 1, std::max(largest, length));
+  };
+  for (std::size_t eye = 0; eye < 2; ++eye) {
+    eyes_[eye] = {scaled(eyes_[eye].width, largest_eyes_[eye].width),
+                  scaled(eyes_[eye].height, largest_eyes_[eye].height)};
+  }
 }
 
 Status Headset::create_instance(std::span<const GraphicsWay> graphics) {
@@ -146,6 +157,8 @@ Status Headset::find_views() {
   for (std::size_t eye = 0; eye < 2; ++eye) {
     eyes_[eye] = {static_cast<int>(views[eye].recommendedImageRectWidth),
                   static_cast<int>(views[eye].recommendedImageRectHeight)};
+    largest_eyes_[eye] = {static_cast<int>(views[eye].maxImageRectWidth),
+                          static_cast<int>(views[eye].maxImageRectHeight)};
   }
   std::array<XrEnvironmentBlendMode, 8> modes{};
   if (XR_SUCCEEDED(api_.xrEnumerateEnvironmentBlendModes(instance(), system_, kStereo,

@@ -11,7 +11,7 @@
 
 namespace nade::xr {
 
-/// What the headset asks each eye's picture to be.
+/// What each eye's picture is to be.
 struct EyeSize {
   int width = 0;
   int height = 0;
@@ -24,6 +24,10 @@ class Headset {
   /// sentence what is missing, and what to do: no loader, no runtime, no headset, no hand tracking,
   /// no OpenGL.
   [[nodiscard]] static Result<Headset> find(std::span<const GraphicsWay> graphics);
+
+  /// Makes each eye's picture so many times as wide and high as the headset asks, but no larger than
+  /// it can be.
+  void scale_eyes(double factor);
 
   [[nodiscard]] const XrApi& api() const { return api_; }
   [[nodiscard]] XrInstance instance() const { return instance_.get(); }
@@ -46,6 +50,7 @@ class Headset {
   XrHandle<XrInstance> instance_;
   XrSystemId system_ = XR_NULL_SYSTEM_ID;
   std::array<EyeSize, 2> eyes_{};
+  std::array<EyeSize, 2> largest_eyes_{};
   XrEnvironmentBlendMode blend_mode_ = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
   GraphicsWay graphics_ = GraphicsWay::egl;
   bool local_floor_ = false;

@@ -140,6 +140,7 @@ Result<Opened> Loop::open(std::optional<RoomSetup> setup) {
   Result<Headset> found = find_headset();
   if (!found) return found.error();
   auto headset = std::make_unique<Headset>(std::move(found).value());
+  headset->scale_eyes(run_.eye_scale);
   if (setup) {
     if (const Status begun = begin(*std::move(setup), *headset); !begun) return begun.error();
   }

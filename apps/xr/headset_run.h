@@ -11,6 +11,7 @@ namespace nade::xr {
 /// How `nade xr` and the study in the headset run.
 struct HeadsetRun {
   std::optional<GraphicsWay> graphics;  ///< without a value whichever the runtime offers
+  double eye_scale = 1.0;               ///< of each eye's picture, of what the headset asks for
   std::optional<std::size_t> frames;    ///< leaves after so many that were shown
   std::optional<std::string>
       screenshot;                     ///< what both eyes saw last: FILE-left.png, FILE-right.png
