@@ -1,21 +1,26 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <ctime>
 #include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
+#include "batch.h"
 #include "command_files.h"
 #include "commands.h"
 #include "console.h"
+#include "frame_pipe.h"
 #include "nade/io/recording.h"
 
 namespace nade::cli {
 namespace {
 
 struct ConvertArguments {
-  std::string input;
-  std::string output;
+  BatchOptions files;
+  std::string recipe;
 };
 
 std::string now_utc() {
@@ -31,27 +36,40 @@ RecordingHeader converted_header(const RecordingReader& reader) {
   return header;
 }
 
-Status run_convert(const ConvertArguments& arguments) {
-  const Status name = check_recording_name("--output", arguments.output);
-  if (!name) return name;
-  Result<RecordingReader> reader = RecordingReader::open(arguments.input);
+/// What was converted: for sums over many.
+Result<nlohmann::ordered_json> convert(const BatchItem& item) {
+  Result<RecordingReader> reader = RecordingReader::open(item.input);
   if (!reader) return reader.error();
-  Result<RecordingWriter> writer =
-      RecordingWriter::create(arguments.output, converted_header(*reader));
+  Result<RecordingWriter> writer = RecordingWriter::create(item.output, converted_header(*reader));
   if (!writer) return writer.error();
-  std::size_t frames = 0;
-  while (true) {
-    const Result<std::optional<RecordedFrame>> frame = reader->next();
-    if (!frame) return frame.error();
-    if (!*frame) break;
-    const Status written = writer->write(**frame);
-    if (!written.ok()) return written;
-    ++frames;
-  }
+  std::optional<std::int64_t> first_ns;
+  double seconds = 0.0;
+  const Result<std::size_t> frames = pipe_frames(
+      *reader, std::nullopt,
+      [&](const RecordedFrame& frame) {
+        if (!first_ns) first_ns = frame.time_ns;
+        seconds = 1e-9 * static_cast<double>(frame.time_ns - *first_ns);
+      },
+      *writer);
+  if (!frames) return frames.error();
   const Status finished = writer->finish();
-  if (!finished.ok()) return finished;
+  if (!finished) return finished.error();
   for (const std::string& warning : reader->warnings()) warn(warning);
-  say(fmt::format("{}: {} frames from {}", arguments.output, frames, arguments.input));
+  return nlohmann::ordered_json{{"frames", *frames}, {"seconds", seconds}};
+}
+
+Status run_convert(const ConvertArguments& arguments) {
+  if (arguments.files.many()) {
+    return run_batch(arguments.files, arguments.recipe, "converted",
+                     [](const BatchItem& item, std::size_t) { return convert(item); });
+  }
+  const BatchItem item{arguments.files.inputs.front(), arguments.files.output};
+  const Status name = check_recording_name("--output", item.output);
+  if (!name) return name;
+  const Result<nlohmann::ordered_json> figures = convert(item);
+  if (!figures) return figures.error();
+  say(fmt::format("{}: {} frames from {}", item.output, figures->at("frames").get<std::size_t>(),
+                  item.input));
   return ok_status();
 }
 
@@ -61,14 +79,11 @@ void add_convert(CLI::App& app, Action& action) {
   CLI::App* const command = app.add_subcommand(
       "convert", "Turns a recording of any known format into ours, or into a table (.csv)");
   const auto arguments = std::make_shared<ConvertArguments>();
-  command->add_option("input", arguments->input, "the recording to read; - is stdin")
-      ->type_name("IN")
-      ->required();
-  command->add_option("-o,--output", arguments->output, "the recording to write; - is stdout")
-      ->type_name("OUT")
-      ->required();
-  command->callback(
-      [&action, arguments] { action = [arguments] { return run_convert(*arguments); }; });
+  add_batch_options(*command, arguments->files);
+  command->callback([&action, arguments, command] {
+    arguments->recipe = recipe_of(*command);
+    action = [arguments] { return run_convert(*arguments); };
+  });
 }
 
 }  // namespace nade::cli

@@ -9,10 +9,13 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "batch.h"
 #include "command_files.h"
 #include "commands.h"
 #include "console.h"
+#include "frame_pipe.h"
 #include "method_options.h"
 #include "nade/corrector.h"
 #include "nade/eval/quantile.h"
@@ -31,8 +34,8 @@ namespace {
 constexpr double kFar_m = 5.0;
 
 struct CorrectArguments {
-  std::string input;
-  std::string output;
+  BatchOptions files;
+  std::string recipe;
   ObjectOptions object;
   MethodOptions method;
   std::optional<double> press_m;
@@ -42,6 +45,7 @@ struct CorrectArguments {
 /// What was done, for people and programs.
 struct Summary {
   std::size_t frames = 0;
+  double seconds = 0.0;                ///< from the first frame to the last
   std::array<std::size_t, 4> hands{};  ///< by HandStatus
   QuantileSketch solve_us;
   /// How near a palm or a fingertip came to the object while nothing had touched it, metres.
@@ -95,34 +99,37 @@ void correct_hand(RecordedHand& hand, HandCorrector& corrector, const Object& ob
 }
 
 Result<Summary> correct_all(const CorrectArguments& arguments, const SpooledInput& input,
-                            PlacedObject& placed) {
+                            const std::string& output, PlacedObject& placed, bool shown) {
   Result<RecordingReader> reader = RecordingReader::open(input.path());
   if (!reader) return reader.error();
   if (is_corrected(reader->header())) return not_tracked(input.name(), kTracked);
-  Result<std::optional<RecordedFrame>> frame = reader->next();
-  if (!frame) return frame.error();
-  if (*frame) placed.start_animation((*frame)->time_ns);
-  Result<RecordingWriter> writer = RecordingWriter::create(
-      arguments.output, corrected_header(reader->header(), arguments, placed));
+  Result<std::optional<RecordedFrame>> first = reader->next();
+  if (!first) return first.error();
+  const std::int64_t start_ns = *first ? (*first)->time_ns : 0;
+  if (*first) placed.start_animation(start_ns);
+  Result<RecordingWriter> writer =
+      RecordingWriter::create(output, corrected_header(reader->header(), arguments, placed));
   if (!writer) return writer.error();
   const Object object = placed.object();
   const CorrectorOptions options = options_of(arguments.method);
   std::array<HandCorrector, 2> correctors{HandCorrector(options), HandCorrector(options)};
   Summary summary;
-  Progress progress("corrected", 0);
-  while (*frame) {
-    placed.move_to((*frame)->time_ns);
-    for (std::size_t side = 0; side < correctors.size(); ++side) {
-      auto& hand = (*frame)->hands[side];
-      if (hand) correct_hand(*hand, correctors[side], object, (*frame)->time_ns, summary);
-    }
-    const Status written = writer->write(**frame);
-    if (!written) return written.error();
-    ++summary.frames;
-    progress.step();
-    frame = reader->next();
-    if (!frame) return frame.error();
-  }
+  std::optional<Progress> progress;
+  if (shown) progress.emplace("corrected", 0);
+  const Result<std::size_t> frames = pipe_frames(
+      *reader, std::move(first).value(),
+      [&](RecordedFrame& frame) {
+        placed.move_to(frame.time_ns);
+        for (std::size_t side = 0; side < correctors.size(); ++side) {
+          auto& hand = frame.hands[side];
+          if (hand) correct_hand(*hand, correctors[side], object, frame.time_ns, summary);
+        }
+        summary.seconds = 1e-9 * static_cast<double>(frame.time_ns - start_ns);
+        if (progress) progress->step();
+      },
+      *writer);
+  if (!frames) return frames.error();
+  summary.frames = *frames;
   for (const std::string& warning : reader->warnings()) warn(input.renamed(warning));
   const Status finished = writer->finish();
   if (!finished) return finished.error();
@@ -166,33 +173,80 @@ std::optional<std::string> why_nothing(const Summary& summary, const CorrectArgu
                      advice);
 }
 
-std::string as_line(const Summary& summary, const CorrectArguments& arguments) {
+std::string as_line(const Summary& summary, const std::string& output) {
   return fmt::format(
       "{}: {} frames, hands corrected {}, released {}, free {}, untracked {}; a hand took {:.1f} "
       "us (median), {:.1f} us (p99)",
-      arguments.output, summary.frames, summary.count(HandStatus::corrected),
+      output, summary.frames, summary.count(HandStatus::corrected),
       summary.count(HandStatus::released), summary.count(HandStatus::free),
       summary.count(HandStatus::untracked), summary.solve_us.quantile(0.5).value_or(0.0),
       summary.solve_us.quantile(0.99).value_or(0.0));
 }
 
-Status run_on(const CorrectArguments& arguments, const SpooledInput& input) {
-  Result<PlacedObject> placed = load_placed(arguments.object);
-  if (!placed) return placed.error();
+/// Corrects one recording; `placed` stands where the command line put it.
+Result<Summary> correct_one(const CorrectArguments& arguments, const SpooledInput& input,
+                            const std::string& output, PlacedObject& placed, bool shown) {
   if (arguments.press_m) {
-    const Status pressed = press_onto(input.path(), *arguments.press_m, *placed);
-    if (!pressed) return pressed;
+    const Status pressed = press_onto(input.path(), *arguments.press_m, placed);
+    if (!pressed) return pressed.error();
   }
-  const Result<Summary> summary = correct_all(arguments, input, *placed);
-  if (!summary) return summary.error();
+  Result<Summary> summary = correct_all(arguments, input, output, placed, shown);
+  if (!summary) return summary;
   if (const auto why = why_nothing(*summary, arguments)) {
     warn(fmt::format("{}: {}", input.name(), *why));
   }
+  return summary;
+}
+
+Status run_on(const CorrectArguments& arguments, const SpooledInput& input) {
+  Result<PlacedObject> placed = load_placed(arguments.object);
+  if (!placed) return placed.error();
+  const std::string& output = arguments.files.output;
+  const Result<Summary> summary = correct_one(arguments, input, output, *placed, true);
+  if (!summary) return summary.error();
   if (!arguments.json) {
-    say(as_line(*summary, arguments));
+    say(as_line(*summary, output));
     return ok_status();
   }
   return write_whole(*arguments.json, as_json(*summary, arguments, *placed).dump(2) + "\n");
+}
+
+/// What of a recording's summary can be summed up over many.
+nlohmann::ordered_json figures_of(const Summary& summary) {
+  nlohmann::ordered_json json{{"frames", summary.frames}, {"seconds", summary.seconds}};
+  for (std::size_t i = 0; i < summary.hands.size(); ++i) {
+    const auto status = static_cast<HandStatus>(i);
+    json[fmt::format("hands {}", name_of(status))] = summary.hands[i];
+  }
+  return json;
+}
+
+/// An object for each thread: one that moves by itself is as it is in the frame that is corrected.
+Status correct_many(const CorrectArguments& arguments) {
+  Result<PlacedObject> first = load_placed(arguments.object);
+  if (!first) return first.error();
+  const Placement placement = first->placement;
+  const std::size_t jobs = arguments.files.jobs > 0 ? arguments.files.jobs : cores();
+  std::vector<std::optional<PlacedObject>> objects(jobs);
+  objects.front() = std::move(first).value();
+  std::string recipe = arguments.recipe;
+  if (const auto file = object_file(arguments.object).path) recipe += " " + stamp_of(*file);
+  return run_batch(
+      arguments.files, recipe, "corrected",
+      [&](const BatchItem& item, std::size_t worker) -> Result<nlohmann::ordered_json> {
+        std::optional<PlacedObject>& placed = objects[worker];
+        if (!placed) {
+          Result<LoadedObject> loaded = load_object(*arguments.object.object);
+          if (!loaded) return loaded.error();
+          placed.emplace(PlacedObject{std::move(loaded).value(), placement});
+        }
+        placed->placement = placement;
+        placed->animation_start_ns.reset();
+        const Result<Summary> summary = correct_one(arguments, SpooledInput::unspooled(item.input),
+                                                    item.output, *placed, false);
+        if (!summary) return summary.error();
+        return figures_of(*summary);
+      });
 }
 
 Status run_correct(const CorrectArguments& arguments) {
@@ -201,13 +255,21 @@ Status run_correct(const CorrectArguments& arguments) {
   }
   const Status method = check_method(arguments.method, MethodChange::never);
   if (!method) return method;
-  const Status apart = check_apart({{"--output", arguments.output}, {"--json", arguments.json}},
-                                   {{"IN", arguments.input}, object_file(arguments.object)});
+  if (arguments.files.many()) {
+    if (!arguments.json) return correct_many(arguments);
+    return misuse(
+        "--json: expected with one recording only; of several, nade-done.jsonl beside "
+        "the outputs has the figures");
+  }
+  const std::string& recording = arguments.files.inputs.front();
+  const std::string& output = arguments.files.output;
+  const Status apart = check_apart({{"--output", output}, {"--json", arguments.json}},
+                                   {{"IN", recording}, object_file(arguments.object)});
   if (!apart) return apart;
-  const Status name = check_recording_name("--output", arguments.output);
+  const Status name = check_recording_name("--output", output);
   if (!name) return name;
-  const Result<SpooledInput> input = arguments.press_m ? SpooledInput::open(arguments.input)
-                                                       : SpooledInput::unspooled(arguments.input);
+  const Result<SpooledInput> input =
+      arguments.press_m ? SpooledInput::open(recording) : SpooledInput::unspooled(recording);
   if (!input) return input.error();
   return named(run_on(arguments, *input), *input);
 }
@@ -218,19 +280,16 @@ void add_correct(CLI::App& app, Action& action) {
   CLI::App* const command =
       app.add_subcommand("correct", "Puts the hands of a recording onto an object");
   const auto arguments = std::make_shared<CorrectArguments>();
-  command->add_option("input", arguments->input, "the recording to correct; - is stdin")
-      ->type_name("IN")
-      ->required();
-  command->add_option("-o,--output", arguments->output, "the recording to write; - is stdout")
-      ->type_name("OUT")
-      ->required();
+  add_batch_options(*command, arguments->files);
   add_object_options(*command, arguments->object);
   add_press_option(*command, arguments->press_m);
   command->add_option("--json", arguments->json, "writes the summary as JSON; - is standard output")
       ->type_name("FILE");
   add_method_options(*command, arguments->method);
-  command->callback(
-      [&action, arguments] { action = [arguments] { return run_correct(*arguments); }; });
+  command->callback([&action, arguments, command] {
+    arguments->recipe = recipe_of(*command);
+    action = [arguments] { return run_correct(*arguments); };
+  });
 }
 
 }  // namespace nade::cli

@@ -28,13 +28,13 @@ constexpr int kPanelWidth = 640;
 constexpr int kPanelHeight = 480;
 constexpr int kInsetWidth = 256;
 constexpr int kInsetHeight = 192;
-constexpr int kGap = 16;
-constexpr int kHeader = kInsetHeight + 2 * kGap;
-constexpr int kSheetWidth = 2 * kPanelWidth + 3 * kGap;
+constexpr int kPairGap = 16;
+constexpr int kPairHeader = kInsetHeight + 2 * kPairGap;
+constexpr int kSheetWidth = 2 * kPanelWidth + 3 * kPairGap;
 constexpr int kViews = 3;
 constexpr double kFilmRate = 30.0;
 constexpr std::size_t kMomentsOfView = 8;  ///< of a film, that its view is chosen by
-constexpr double kView = 26.0 * kDegree;
+constexpr double kPairView = 26.0 * kDegree;
 constexpr double kAspect = static_cast<double>(kPanelWidth) / kPanelHeight;
 
 /// One question.
@@ -83,7 +83,7 @@ std::array<draw::Camera, kViews> cameras_of(std::span<const HandsByMethod> momen
   const Quat palm = (*hand)[Joint::palm].rotation;
   const Vec3 thumb = palm * Vec3(hand->side == Handedness::right ? -1.0 : 1.0, 0.0, 0.0);
   const Vec3 ahead = palm * -Vec3::UnitZ();
-  const double distance_m = 0.6 * box.diagonal().norm() / std::sin(0.5 * kView);
+  const double distance_m = 0.6 * box.diagonal().norm() / std::sin(0.5 * kPairView);
   const auto best = [&](const std::array<Vec3, 4>& outs) {
     Vec3 eye = Vec3::Zero();
     std::optional<std::size_t> most;
@@ -95,7 +95,7 @@ std::array<draw::Camera, kViews> cameras_of(std::span<const HandsByMethod> momen
       most = seen;
       eye = from;
     }
-    return draw::looking_at(eye, box.center(), kView, kAspect);
+    return draw::looking_at(eye, box.center(), kPairView, kAspect);
   };
   const Vec3 back = hand->back();
   const Vec3 aside = 0.75 * thumb + 0.5 * ahead;
@@ -107,7 +107,7 @@ std::array<draw::Camera, kViews> cameras_of(std::span<const HandsByMethod> momen
 }
 
 int sheet_height(std::size_t views) {
-  return kHeader + static_cast<int>(views) * (kPanelHeight + kGap);
+  return kPairHeader + static_cast<int>(views) * (kPanelHeight + kPairGap);
 }
 
 /// A pair's sheet: two columns, a row a view; above them, small, the tracked hand.
@@ -121,8 +121,8 @@ draw::Image draw_sheet(const Pair& pair, const std::string& name, const HandsByM
   const auto take = [&](const draw::Camera& camera, int width, int height) {
     return studio.renderer->picture(studio.stage.arrange(frame), camera, width, height);
   };
-  canvas.paste(take(views.front(), kInsetWidth, kInsetHeight), kGap, kGap);
-  const float beside = kInsetWidth + 3.0F * kGap;
+  canvas.paste(take(views.front(), kInsetWidth, kInsetHeight), kPairGap, kPairGap);
+  const float beside = kInsetWidth + 3.0F * kPairGap;
   canvas.text({beside, 24.0F}, name, 34.0F, ink);
   canvas.text({beside, 76.0F}, "Left here: where the person's hand really is.", 26.0F, ink);
   canvas.text({beside, 112.0F}, "Which of the two below looks more like a hand", 26.0F, ink);
@@ -130,7 +130,7 @@ draw::Image draw_sheet(const Pair& pair, const std::string& name, const HandsByM
   frame.shown = draw::Shown::corrected;
   for (std::size_t column = 0; column < 2; ++column) {
     frame.hands = by_method[pair.shown[column]];
-    const int left = kGap + static_cast<int>(column) * (kPanelWidth + kGap);
+    const int left = kPairGap + static_cast<int>(column) * (kPanelWidth + kPairGap);
     for (std::size_t row = 0; row < views.size(); ++row) {
       canvas.paste(take(views[row], kPanelWidth, kPanelHeight), left, sheet_height(row));
     }

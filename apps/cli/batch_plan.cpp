@@ -1,0 +1,174 @@
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "batch.h"
+#include "command_files.h"
+#include "commands.h"
+#include "nade/io/mesh_file.h"
+#include "nade/io/output_file.h"
+#include "nade/version.h"
+#include "number_options.h"
+
+namespace nade::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array kEndings{".jsonl", ".json", ".csv"};
+
+bool is_recording_name(const fs::path& path) {
+  return std::find(kEndings.begin(), kEndings.end(), content_ending_of(path.string())) !=
+         kEndings.end();
+}
+
+bool is_hidden(const fs::path& path) { return path.filename().string().starts_with('.'); }
+
+bool is_folder(const std::string& path) {
+  std::error_code ignored;
+  return fs::is_directory(path, ignored);
+}
+
+}  // namespace
+
+bool BatchOptions::many() const {
+  return inputs.size() > 1 || (inputs.size() == 1 && is_folder(inputs.front()));
+}
+
+std::size_t cores() { return std::max(1U, std::thread::hardware_concurrency()); }
+
+void add_jobs_option(CLI::App& command, std::size_t& jobs) {
+  command.add_option("--jobs", jobs, "of many recordings, so many at a time (default all cores)")
+      ->type_name("N")
+      ->transform(whole_number_in(1, 256));
+}
+
+void add_batch_options(CLI::App& command, BatchOptions& options) {
+  command
+      .add_option("input", options.inputs,
+                  "the recording to read, - is stdin; or several, and folders of them")
+      ->type_name("IN")
+      ->required();
+  command
+      .add_option("-o,--output", options.output,
+                  "the recording to write, - is stdout; of several the folder for them")
+      ->type_name("OUT")
+      ->required();
+  command
+      .add_option_function<std::string>(
+          "--ending",
+          [&options](const std::string& ending) {
+            const std::string content = content_ending_of("x" + ending);
+            if (content != ".jsonl" && content != ".csv") {
+              throw CLI::ValidationError(fmt::format(
+                  "--ending: expected .jsonl, .jsonl.gz, .csv or .csv.gz, found '{}'", ending));
+            }
+            options.ending = ending;
+          },
+          "of what is written into a folder (default .jsonl.gz)")
+      ->type_name("ENDING");
+  add_jobs_option(command, options.jobs);
+}
+
+std::string stem_of(const std::string& recording) {
+  fs::path path = recording;
+  if (ending_of(recording) == ".gz") path.replace_extension();
+  return path.replace_extension().string();
+}
+
+Result<std::vector<std::string>> recordings_in(const std::string& folder) {
+  std::vector<std::string> found;
+  std::error_code failed;
+  fs::recursive_directory_iterator entry(folder, failed);
+  for (; !failed && entry != fs::recursive_directory_iterator(); entry.increment(failed)) {
+    std::error_code ignored;
+    if (is_hidden(entry->path())) {
+      if (entry->is_directory(ignored)) entry.disable_recursion_pending();
+      continue;
+    }
+    if (entry->is_directory(ignored) || !is_recording_name(entry->path())) continue;
+    found.push_back(entry->path().lexically_relative(folder).string());
+  }
+  if (failed) {
+    return Error{ErrorCode::not_found,
+                 fmt::format("{}: expected to read the folder, but: {}", folder, failed.message())};
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+Result<std::vector<BatchItem>> batch_items(const BatchOptions& options) {
+  std::vector<BatchItem> items;
+  const auto add = [&](const fs::path& input, const std::string& within) {
+    const fs::path output = fs::path(options.output) / (stem_of(within) + options.ending);
+    items.push_back({input.string(), output.string()});
+  };
+  for (const std::string& input : options.inputs) {
+    if (!is_folder(input)) {
+      if (input == kStandardStream) {
+        return misuse("IN: expected files or folders where there are several, found '-'");
+      }
+      add(input, fs::path(input).filename().string());
+      continue;
+    }
+    const Result<std::vector<std::string>> found = recordings_in(input);
+    if (!found) return found.error();
+    for (const std::string& name : *found) {
+      const fs::path path = fs::path(input) / name;
+      // What an earlier run made is no input of this one.
+      if (!lies_in(path.string(), options.output)) add(path, name);
+    }
+  }
+  std::set<fs::path> inputs;
+  std::error_code ignored;
+  for (const BatchItem& item : items) inputs.insert(fs::weakly_canonical(item.input, ignored));
+  std::map<std::string, std::string> taken;
+  for (const BatchItem& item : items) {
+    if (inputs.contains(fs::weakly_canonical(item.output, ignored))) {
+      return misuse(fmt::format(
+          "--output: expected a folder in which no input is replaced, found {}", options.output));
+    }
+    const auto [other, is_new] = taken.emplace(item.output, item.input);
+    if (is_new) continue;
+    return misuse(fmt::format("{} and {} would both become {}: rename one, or give their folder",
+                              other->second, item.input, item.output));
+  }
+  if (items.empty()) {
+    return Error{ErrorCode::not_found,
+                 fmt::format("{}: expected recordings (.jsonl, .json, .csv, or .gz behind one of "
+                             "them), found none",
+                             fmt::join(options.inputs, ", "))};
+  }
+  return items;
+}
+
+std::string recipe_of(const CLI::App& command) {
+  constexpr std::array kElsewhere{"input", "--output", "--jobs", "--json"};
+  std::string recipe = fmt::format("nade {} {}", NADE_VERSION, command.get_name());
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name();
+    const bool elsewhere = std::any_of(kElsewhere.begin(), kElsewhere.end(), [&](const char* word) {
+      return name.find(word) != std::string::npos;
+    });
+    if (option->count() == 0 || elsewhere) continue;
+    recipe += fmt::format(" {} {}", name, fmt::join(option->results(), " "));
+  }
+  return recipe;
+}
+
+std::string stamp_of(const std::string& path) {
+  struct stat info {};
+  if (::stat(path.c_str(), &info) != 0) return "none";
+  return fmt::format("{} bytes of {}.{:09}", info.st_size, info.st_mtim.tv_sec,
+                     info.st_mtim.tv_nsec);
+}
+
+}  // namespace nade::cli
