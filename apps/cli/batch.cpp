@@ -23,8 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kJournal = "nade-done.jsonl";
-
 /// What was done in a folder, by output: a line of JSON each, so that nothing of a run that is
 /// ended is lost but what it was at.
 class Journal {
@@ -32,6 +30,7 @@ class Journal {
   explicit Journal(const std::string& folder) : path_(fs::path(folder) / kJournal) {
     std::ifstream file(path_);
     for (std::string line; std::getline(file, line);) {
+      cut_off_ = file.eof();
       Json entry = Json::parse(line, nullptr, false);
       if (!entry.is_object() || !entry.contains("output")) continue;
       const std::string output = entry["output"].dump();
@@ -61,9 +60,7 @@ class Journal {
                      {"stamp", stamp},
                      {"recipe", recipe},
                      {"figures", figures}};
-    // A line that was cut off ends here.
-    std::string line = first_ ? "\n" : "";
-    first_ = false;
+    std::string line = std::exchange(cut_off_, false) ? "\n" : "";
     line += entry.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
     std::ofstream(path_, std::ios::app) << line;
   }
@@ -75,7 +72,7 @@ class Journal {
 
   fs::path path_;
   std::unordered_map<std::string, Json> done_;
-  bool first_ = true;
+  bool cut_off_ = false;  ///< in the middle of its last line
 };
 
 /// Sums over recordings, and what went wrong.

@@ -11,6 +11,9 @@
 
 namespace nade::cli {
 
+/// What was done in a folder, for the next run.
+inline constexpr const char* kJournal = "nade-done.jsonl";
+
 /// The recordings a command works on, and where what comes of each goes: one file to one file, or
 /// several files and folders into a folder.
 struct BatchOptions {

@@ -26,6 +26,7 @@ namespace fs = std::filesystem;
 constexpr std::array kEndings{".jsonl", ".json", ".csv"};
 
 bool is_recording_name(const fs::path& path) {
+  if (path.filename() == kJournal) return false;
   return std::find(kEndings.begin(), kEndings.end(), content_ending_of(path.string())) !=
          kEndings.end();
 }

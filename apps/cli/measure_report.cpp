@@ -106,18 +106,22 @@ std::string as_json(const MeasureReport& report) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string as_csv(const MeasureReport& report) {
+std::string csv_names() {
   std::string names = "tracked,corrected,method,object,hand_scale,frames,pressing_frames";
+  for (const MetricInfo& info : metric_table()) names += std::string(",") + info.key;
+  return names;
+}
+
+std::string csv_values(const MeasureReport& report) {
   std::string values =
       fmt::format("{},{},{},{},{:.6g},{},{}", csv_field(report.tracked),
                   csv_field(report.corrected), csv_field(report.method), csv_field(report.object),
                   report.hand_scale, report.both.frames, report.both.pressing_frames);
   for (const MetricInfo& info : metric_table()) {
     const std::optional<double>& value = report.both.*info.value;
-    names += std::string(",") + info.key;
     values += value ? fmt::format(",{:.9g}", *value) : ",";
   }
-  return names + "\n" + values + "\n";
+  return values;
 }
 
 }  // namespace nade::cli

@@ -27,7 +27,8 @@ struct MeasureReport {
 /// "hands"; null where there was nothing to measure.
 [[nodiscard]] std::string as_json(const MeasureReport& report);
 
-/// A line of names and a line of values, over both hands; empty where nothing was measured.
-[[nodiscard]] std::string as_csv(const MeasureReport& report);
+/// The names and the values of a row, over both hands; empty where nothing was measured.
+[[nodiscard]] std::string csv_names();
+[[nodiscard]] std::string csv_values(const MeasureReport& report);
 
 }  // namespace nade::cli
