@@ -40,7 +40,7 @@ HandPose hand_from(nade_side side, const nade_joint* joints) noexcept {
   hand.side = side == NADE_LEFT ? Handedness::left : Handedness::right;
   for (std::size_t i = 0; i < kJointCount; ++i) {
     const Quat rotation = quaternion_from(joints[i].rotation);
-    hand.joints[i].rotation = can_be_unit(rotation) ? rotation.normalized() : rotation;
+    hand.joints[i].rotation = can_be_unit(rotation) ? Quat(rotation.normalized()) : rotation;
     hand.joints[i].position = vector_from(joints[i].position);
     hand.radius[i] = static_cast<double>(joints[i].radius);
   }
