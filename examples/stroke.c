@@ -17,7 +17,7 @@ int main(void) {
   nade_result drawn = {.size = sizeof drawn};
 
   if (!check(nade_corrector_create(NULL, &corrector))) return 1;
-  if (!check(nade_surface_create_sphere(0.15f, &ball))) return 1;
+  if (!check(nade_surface_create_sphere(0.15, &ball))) return 1;
   if (!check(nade_rest_hand(NADE_RIGHT, rest))) return 1;
   for (int frame = 0; frame <= 90; ++frame) { /* a second; a tracker would give the joints */
     for (int i = 0; i < NADE_JOINT_COUNT; ++i) {

@@ -14,6 +14,9 @@
  * 26 joints in the order of XrHandJointEXT, in frames as OpenXR has them: -Z to the fingertip, +Y
  * to the back of the hand, for both hands. Times are nanoseconds of any origin.
  *
+ * Hands, placements and vertices are floats, as engines have them; sizes and options are doubles,
+ * as written. Correction is in doubles: the same hand as by the C++ classes, rounded.
+ *
  * Errors. Every function that can fail returns a nade_status: NADE_OK, or a negative code;
  * nade_last_error() has the sentence, which names the argument. A call that failed has changed
  * nothing, what it would have written included. Nothing is thrown, printed or stopped.
@@ -185,20 +188,21 @@ typedef struct nade_placement {
 /* What an object is like under the hand. NULL stands for the defaults: hard, without friction. */
 typedef struct nade_feel {
   uint32_t size;
-  float softness_m;       /* the skin sinks in so far at the most, 0 to 0.02; default 0 */
-  float softness_depth_m; /* pressing so deep sinks by two thirds of that, above 0; default 0.02 */
-  float friction;         /* lag over pressing depth at which the hand slips, 0 to 2; default 0 */
-  float friction_kinetic; /* share of the lag that is left while it slips, 0 to 1; default 0.6 */
-  float longest_lag_m;    /* whatever the depth; default 0.03 */
+  uint32_t reserved;       /* 0 */
+  double softness_m;       /* the skin sinks in so far at the most, 0 to 0.02; default 0 */
+  double softness_depth_m; /* pressing so deep sinks by two thirds of that, above 0; default 0.02 */
+  double friction;         /* lag over pressing depth at which the hand slips, 0 to 2; default 0 */
+  double friction_kinetic; /* share of the lag that is left while it slips, 0 to 1; default 0.6 */
+  double longest_lag_m;    /* whatever the depth; default 0.03 */
 } nade_feel;
 
 typedef struct nade_corrector_options {
   uint32_t size;
   nade_method method; /* default NADE_METHOD_NADE */
-  float release_s;    /* what cannot be continuous fades over this time, 0 to 1; default 0.2 */
+  double release_s;   /* what cannot be continuous fades over this time, 0 to 1; default 0.2 */
   /* Wrist to middle knuckle of the hand that is drawn, where it is known, below 0.5; 0, the
    * default: what the tracker says on the average. */
-  float hand_length_m;
+  double hand_length_m;
   const nade_feel* feel;         /* of objects outside of a scene; NULL, the default */
   const nade_flesh* left_flesh;  /* of the left hand that is drawn; NULL: the built-in hand's */
   const nade_flesh* right_flesh; /* of the right one */
@@ -339,25 +343,25 @@ NADE_API nade_status nade_surface_create_plane(nade_surface** surface) NADE_NOEX
  * outline, solid for `thickness_m` > 0 below it. `outline_xz` has x and z of each of `count` >= 3
  * corners, in either order around, not crossing itself, of an area above 0. */
 NADE_API nade_status nade_surface_create_plate(const float* outline_xz, size_t count,
-                                               float thickness_m,
+                                               double thickness_m,
                                                nade_surface** surface) NADE_NOEXCEPT;
 /* A ball about the origin. `radius_m` > 0. */
-NADE_API nade_status nade_surface_create_sphere(float radius_m,
+NADE_API nade_status nade_surface_create_sphere(double radius_m,
                                                 nade_surface** surface) NADE_NOEXCEPT;
 /* An ellipsoid about the origin: a ball that is scaled differently along its axes. All > 0. */
-NADE_API nade_status nade_surface_create_ellipsoid(const float half_axes_m[3],
+NADE_API nade_status nade_surface_create_ellipsoid(const double half_axes_m[3],
                                                    nade_surface** surface) NADE_NOEXCEPT;
 /* A box about the origin. `half_size_m` > 0, with the rounding; `rounding_m` of its edges, from 0
  * to the smallest of it. */
-NADE_API nade_status nade_surface_create_box(const float half_size_m[3], float rounding_m,
+NADE_API nade_status nade_surface_create_box(const double half_size_m[3], double rounding_m,
                                              nade_surface** surface) NADE_NOEXCEPT;
 /* A cylinder about the Y axis, its middle in the origin. Both > 0; `rounding_m` of its rims, from 0
  * to the smaller. */
-NADE_API nade_status nade_surface_create_cylinder(float half_height_m, float radius_m,
-                                                  float rounding_m,
+NADE_API nade_status nade_surface_create_cylinder(double half_height_m, double radius_m,
+                                                  double rounding_m,
                                                   nade_surface** surface) NADE_NOEXCEPT;
 /* What is within `radius_m` > 0 of a line of `length_m` >= 0 along Y, its middle in the origin. */
-NADE_API nade_status nade_surface_create_capsule(float length_m, float radius_m,
+NADE_API nade_status nade_surface_create_capsule(double length_m, double radius_m,
                                                  nade_surface** surface) NADE_NOEXCEPT;
 /* The smallest convex solid with all `count` >= 4 points in it; not all in a plane. Time grows as
  * the number of points times that of the faces. */
@@ -366,7 +370,7 @@ NADE_API nade_status nade_surface_create_hull(const float* points, size_t count,
 /* Heights (Y), `rows` (+Z) of `columns` (+X), both >= 2, `step_m` > 0 apart, about the origin.
  * Solid below. */
 NADE_API nade_status nade_surface_create_height_field(const float* heights, size_t columns,
-                                                      size_t rows, float step_m,
+                                                      size_t rows, double step_m,
                                                       nade_surface** surface) NADE_NOEXCEPT;
 /* A triangle mesh, with its search tree: about a second for a million triangles. `report` may be
  * NULL. NADE_ERROR_DATA where no triangle has an area, a vertex is not finite, or an index is out
@@ -395,7 +399,7 @@ NADE_API nade_status nade_surface_place_member(nade_surface* group, size_t index
  * want to know what a hand would feel. Does not allocate. */
 NADE_API nade_status nade_surface_closest_point(const nade_surface* surface,
                                                 const nade_placement* placement,
-                                                const float query[3], float max_distance,
+                                                const double query[3], double max_distance,
                                                 nade_surface_point* point,
                                                 int32_t* found) NADE_NOEXCEPT;
 NADE_API nade_status nade_surface_destroy(nade_surface* surface) NADE_NOEXCEPT;

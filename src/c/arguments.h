@@ -51,7 +51,8 @@ class Arguments {
     return *this;
   }
 
-  Arguments& finite(const float* values, std::size_t count, const char* name) {
+  template <class Number>
+  Arguments& finite(const Number* values, std::size_t count, const char* name) {
     for (std::size_t i = 0; ok() && i < count; ++i) {
       if (std::isfinite(values[i])) continue;
       status_ = fail(NADE_ERROR_ARGUMENT, "%s: expected finite numbers, found %g at %zu", name,

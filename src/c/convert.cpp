@@ -75,22 +75,23 @@ Placement placement_from(const nade_placement* placement) noexcept {
 nade_feel default_feel() noexcept {
   const SettleOptions defaults;
   return {sizeof(nade_feel),
-          static_cast<float>(defaults.softness_m),
-          static_cast<float>(defaults.softness_depth_m),
-          static_cast<float>(defaults.friction.coefficient),
-          static_cast<float>(defaults.friction.kinetic),
-          static_cast<float>(defaults.friction.longest_lag_m)};
+          0,
+          defaults.softness_m,
+          defaults.softness_depth_m,
+          defaults.friction.coefficient,
+          defaults.friction.kinetic,
+          defaults.friction.longest_lag_m};
 }
 
 SettleOptions feel_from(const nade_feel* feel) noexcept {
   if (feel == nullptr) return {};
   const nade_feel whole = with_defaults(*feel, default_feel());
   SettleOptions options;
-  options.softness_m = static_cast<double>(whole.softness_m);
-  options.softness_depth_m = static_cast<double>(whole.softness_depth_m);
-  options.friction.coefficient = static_cast<double>(whole.friction);
-  options.friction.kinetic = static_cast<double>(whole.friction_kinetic);
-  options.friction.longest_lag_m = static_cast<double>(whole.longest_lag_m);
+  options.softness_m = whole.softness_m;
+  options.softness_depth_m = whole.softness_depth_m;
+  options.friction.coefficient = whole.friction;
+  options.friction.kinetic = whole.friction_kinetic;
+  options.friction.longest_lag_m = whole.longest_lag_m;
   return options;
 }
 

@@ -11,8 +11,8 @@ nade_corrector_options default_options() {
   nade_corrector_options options{};
   options.size = sizeof options;
   options.method = static_cast<nade_method>(defaults.method);
-  options.release_s = static_cast<float>(defaults.release_s);
-  options.hand_length_m = static_cast<float>(defaults.hand_length_m);
+  options.release_s = defaults.release_s;
+  options.hand_length_m = defaults.hand_length_m;
   return options;
 }
 
@@ -39,8 +39,8 @@ nade_status read_options(const nade_corrector_options* given, CorrectorOptions& 
   const nade_status feel_status = check_feel(whole.feel);
   if (feel_status != NADE_OK) return feel_status;
   options.method = static_cast<Method>(whole.method);
-  options.release_s = static_cast<double>(whole.release_s);
-  options.hand_length_m = static_cast<double>(whole.hand_length_m);
+  options.release_s = whole.release_s;
+  options.hand_length_m = whole.hand_length_m;
   options.settle = feel_from(whole.feel);
   put_flesh(whole.left_flesh, Handedness::left, options);
   put_flesh(whole.right_flesh, Handedness::right, options);

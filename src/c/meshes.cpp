@@ -90,21 +90,20 @@ nade_status nade_surface_create_hull(const float* points, size_t count,
 }
 
 nade_status nade_surface_create_height_field(const float* heights, size_t columns, size_t rows,
-                                             float step_m, nade_surface** surface) noexcept {
+                                             double step_m, nade_surface** surface) noexcept {
   return guarded(__func__, [&] {
-    const double step = step_m;
     Arguments arguments;
     arguments.given(surface, "surface")
         .given(heights, "heights")
         .at_least(columns, 2, "columns")
         .at_least(rows, 2, "rows")
-        .above_zero(step, "step_m")
+        .above_zero(step_m, "step_m")
         .expects(rows <= std::numeric_limits<std::uint32_t>::max() / columns, NADE_ERROR_ARGUMENT,
                  "rows: too many heights");
     if (arguments.ok()) arguments.finite(heights, columns * rows, "heights");
     if (!arguments.ok()) return arguments.status();
-    return nade::c_abi::make_solid_of(nade::height_field({heights, columns * rows}, columns, step),
-                                      "height field", surface);
+    return nade::c_abi::make_solid_of(
+        nade::height_field({heights, columns * rows}, columns, step_m), "height field", surface);
   });
 }
 

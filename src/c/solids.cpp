@@ -42,15 +42,14 @@ nade_status nade_surface_create_plane(nade_surface** surface) noexcept {
   });
 }
 
-nade_status nade_surface_create_plate(const float* outline_xz, size_t count, float thickness_m,
+nade_status nade_surface_create_plate(const float* outline_xz, size_t count, double thickness_m,
                                       nade_surface** surface) noexcept {
   return guarded(__func__, [&] {
-    const double thickness = thickness_m;
     Arguments arguments;
     arguments.given(surface, "surface")
         .given(outline_xz, "outline_xz")
         .at_least(count, 3, "count")
-        .above_zero(thickness, "thickness_m");
+        .above_zero(thickness_m, "thickness_m");
     if (arguments.ok()) arguments.finite(outline_xz, 2 * count, "outline_xz");
     if (!arguments.ok()) return arguments.status();
     std::vector<Eigen::Vector2d> outline;
@@ -61,21 +60,20 @@ nade_status nade_surface_create_plate(const float* outline_xz, size_t count, flo
     arguments.expects(nade::c_abi::has_area(outline), NADE_ERROR_ARGUMENT,
                       "outline_xz: expected an area above 0");
     if (!arguments.ok()) return arguments.status();
-    return nade::c_abi::make_solid<nade::PlateSurface>(surface, outline, thickness);
+    return nade::c_abi::make_solid<nade::PlateSurface>(surface, outline, thickness_m);
   });
 }
 
-nade_status nade_surface_create_sphere(float radius_m, nade_surface** surface) noexcept {
+nade_status nade_surface_create_sphere(double radius_m, nade_surface** surface) noexcept {
   return guarded(__func__, [&] {
-    const double radius = radius_m;
     const Arguments arguments =
-        Arguments().given(surface, "surface").above_zero(radius, "radius_m");
+        Arguments().given(surface, "surface").above_zero(radius_m, "radius_m");
     if (!arguments.ok()) return arguments.status();
-    return nade::c_abi::make_solid<nade::SphereSurface>(surface, radius);
+    return nade::c_abi::make_solid<nade::SphereSurface>(surface, radius_m);
   });
 }
 
-nade_status nade_surface_create_ellipsoid(const float half_axes_m[3],
+nade_status nade_surface_create_ellipsoid(const double half_axes_m[3],
                                           nade_surface** surface) noexcept {
   return guarded(__func__, [&] {
     Arguments arguments;
@@ -88,7 +86,7 @@ nade_status nade_surface_create_ellipsoid(const float half_axes_m[3],
   });
 }
 
-nade_status nade_surface_create_box(const float half_size_m[3], float rounding_m,
+nade_status nade_surface_create_box(const double half_size_m[3], double rounding_m,
                                     nade_surface** surface) noexcept {
   return guarded(__func__, [&] {
     Arguments arguments;
@@ -97,43 +95,38 @@ nade_status nade_surface_create_box(const float half_size_m[3], float rounding_m
       arguments.above_zero(half_size_m[i], "half_size_m");
     if (!arguments.ok()) return arguments.status();
     const nade::Vec3 half_size = nade::c_abi::vector_from(half_size_m);
-    const double rounding = rounding_m;
-    arguments.within(rounding, 0.0, half_size.minCoeff(), "rounding_m");
+    arguments.within(rounding_m, 0.0, half_size.minCoeff(), "rounding_m");
     if (!arguments.ok()) return arguments.status();
-    return nade::c_abi::make_solid<nade::BoxSurface>(surface, half_size, rounding);
+    return nade::c_abi::make_solid<nade::BoxSurface>(surface, half_size, rounding_m);
   });
 }
 
-nade_status nade_surface_create_cylinder(float half_height_m, float radius_m, float rounding_m,
+nade_status nade_surface_create_cylinder(double half_height_m, double radius_m, double rounding_m,
                                          nade_surface** surface) noexcept {
   return guarded(__func__, [&] {
-    const double half_height = half_height_m;
-    const double radius = radius_m;
-    const double rounding = rounding_m;
     const Arguments arguments =
         Arguments()
             .given(surface, "surface")
-            .above_zero(half_height, "half_height_m")
-            .above_zero(radius, "radius_m")
-            .within(rounding, 0.0, std::min(half_height, radius), "rounding_m");
+            .above_zero(half_height_m, "half_height_m")
+            .above_zero(radius_m, "radius_m")
+            .within(rounding_m, 0.0, std::min(half_height_m, radius_m), "rounding_m");
     if (!arguments.ok()) return arguments.status();
-    return nade::c_abi::make_solid<nade::CylinderSurface>(surface, half_height, radius, rounding);
+    return nade::c_abi::make_solid<nade::CylinderSurface>(surface, half_height_m, radius_m,
+                                                          rounding_m);
   });
 }
 
-nade_status nade_surface_create_capsule(float length_m, float radius_m,
+nade_status nade_surface_create_capsule(double length_m, double radius_m,
                                         nade_surface** surface) noexcept {
   return guarded(__func__, [&] {
-    const double length = length_m;
-    const double radius = radius_m;
     const Arguments arguments =
         Arguments()
             .given(surface, "surface")
-            .within(length, 0.0, std::numeric_limits<float>::max(), "length_m")
-            .above_zero(radius, "radius_m");
+            .within(length_m, 0.0, std::numeric_limits<double>::max(), "length_m")
+            .above_zero(radius_m, "radius_m");
     if (!arguments.ok()) return arguments.status();
-    return nade::c_abi::make_solid<nade::CylinderSurface>(surface,
-                                                          nade::capsule_surface(length, radius));
+    return nade::c_abi::make_solid<nade::CylinderSurface>(
+        surface, nade::capsule_surface(length_m, radius_m));
   });
 }
 

@@ -89,23 +89,22 @@ nade_status nade_surface_place_member(nade_surface* group, size_t index,
 }
 
 nade_status nade_surface_closest_point(const nade_surface* surface, const nade_placement* placement,
-                                       const float query[3], float max_distance,
+                                       const double query[3], double max_distance,
                                        nade_surface_point* point, int32_t* found) noexcept {
   return guarded(__func__, [&] {
-    const double farthest = max_distance;
     Arguments arguments;
     arguments.handle(surface, "surface")
         .placement(placement)
         .given(query, "query")
         .given(point, "point")
         .given(found, "found")
-        .within(farthest, 0.0, std::numeric_limits<double>::infinity(), "max_distance");
+        .within(max_distance, 0.0, std::numeric_limits<double>::infinity(), "max_distance");
     if (arguments.ok()) arguments.finite(query, 3, "query");
     if (!arguments.ok()) return arguments.status();
     const nade::Object object(*(*surface->contents)->surface,
                               nade::c_abi::placement_from(placement));
     nade::SurfaceHint hint;
-    const auto nearest = object.closest_point(nade::c_abi::vector_from(query), farthest, hint);
+    const auto nearest = object.closest_point(nade::c_abi::vector_from(query), max_distance, hint);
     *found = nearest ? 1 : 0;
     if (!nearest) return arguments.status();
     nade::c_abi::put_vector(nearest->point, point->point);

@@ -26,13 +26,14 @@ static void check_layouts(void) {
   CHECK_LAYOUT(nade_placement, rotation, 0, 16);
   CHECK_LAYOUT(nade_placement, position, 16, 12);
   CHECK_LAYOUT(nade_placement, scale, 28, 4);
-  CHECK(sizeof(nade_feel) == 24);
+  CHECK(sizeof(nade_feel) == 48);
   CHECK_LAYOUT(nade_feel, size, 0, 4);
-  CHECK_LAYOUT(nade_feel, softness_m, 4, 4);
-  CHECK_LAYOUT(nade_feel, softness_depth_m, 8, 4);
-  CHECK_LAYOUT(nade_feel, friction, 12, 4);
-  CHECK_LAYOUT(nade_feel, friction_kinetic, 16, 4);
-  CHECK_LAYOUT(nade_feel, longest_lag_m, 20, 4);
+  CHECK_LAYOUT(nade_feel, reserved, 4, 4);
+  CHECK_LAYOUT(nade_feel, softness_m, 8, 8);
+  CHECK_LAYOUT(nade_feel, softness_depth_m, 16, 8);
+  CHECK_LAYOUT(nade_feel, friction, 24, 8);
+  CHECK_LAYOUT(nade_feel, friction_kinetic, 32, 8);
+  CHECK_LAYOUT(nade_feel, longest_lag_m, 40, 8);
   CHECK(sizeof(nade_contact) == 56);
   CHECK_LAYOUT(nade_contact, object, 0, 8);
   CHECK_LAYOUT(nade_contact, bone, 8, 4);
@@ -71,14 +72,14 @@ static void check_layouts(void) {
 /* Structs with pointers, where these have 8 bytes. */
 static void check_layouts_with_pointers(void) {
   if (sizeof(void*) != 8) return;
-  CHECK(sizeof(nade_corrector_options) == 40);
+  CHECK(sizeof(nade_corrector_options) == 48);
   CHECK_LAYOUT(nade_corrector_options, size, 0, 4);
   CHECK_LAYOUT(nade_corrector_options, method, 4, 4);
-  CHECK_LAYOUT(nade_corrector_options, release_s, 8, 4);
-  CHECK_LAYOUT(nade_corrector_options, hand_length_m, 12, 4);
-  CHECK_LAYOUT(nade_corrector_options, feel, 16, 8);
-  CHECK_LAYOUT(nade_corrector_options, left_flesh, 24, 8);
-  CHECK_LAYOUT(nade_corrector_options, right_flesh, 32, 8);
+  CHECK_LAYOUT(nade_corrector_options, release_s, 8, 8);
+  CHECK_LAYOUT(nade_corrector_options, hand_length_m, 16, 8);
+  CHECK_LAYOUT(nade_corrector_options, feel, 24, 8);
+  CHECK_LAYOUT(nade_corrector_options, left_flesh, 32, 8);
+  CHECK_LAYOUT(nade_corrector_options, right_flesh, 40, 8);
   CHECK(sizeof(nade_mesh) == 40);
   CHECK_LAYOUT(nade_mesh, size, 0, 4);
   CHECK_LAYOUT(nade_mesh, vertex_count, 4, 4);
@@ -151,8 +152,8 @@ static void check_messages(void) {
 }
 
 static void check_wrong_surfaces(void) {
-  const float half[3] = {0.1f, 0.2f, 0.3f};
-  const float bad_half[3] = {0.1f, NAN, 0.3f};
+  const double half[3] = {0.1, 0.2, 0.3};
+  const double bad_half[3] = {0.1, NAN, 0.3};
   const float outline[6] = {0, 0, 1, 0, 0, 1};
   const float line[6] = {0, 0, 1, 0, 2, 0};
   const float flat[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
@@ -164,25 +165,25 @@ static void check_wrong_surfaces(void) {
   CHECK(nade_surface_create_ellipsoid(NULL, &made) == NADE_ERROR_ARGUMENT);
   CHECK(nade_surface_create_ellipsoid(bad_half, &made) == NADE_ERROR_ARGUMENT);
   CHECK(nade_surface_create_box(bad_half, 0, &made) == NADE_ERROR_ARGUMENT);
-  CHECK(nade_surface_create_box(half, 0.11f, &made) == NADE_ERROR_ARGUMENT);
+  CHECK(nade_surface_create_box(half, 0.11, &made) == NADE_ERROR_ARGUMENT);
   CHECK(nade_surface_create_box(half, NAN, &made) == NADE_ERROR_ARGUMENT);
   CHECK(nade_surface_create_box(NULL, 0, &made) == NADE_ERROR_ARGUMENT);
-  CHECK(nade_surface_create_cylinder(0.1f, 0, 0, &made) == NADE_ERROR_ARGUMENT);
-  CHECK(nade_surface_create_cylinder(0.1f, 0.2f, 0.15f, &made) == NADE_ERROR_ARGUMENT);
-  CHECK(nade_surface_create_capsule(-0.1f, 0.2f, &made) == NADE_ERROR_ARGUMENT);
-  CHECK(nade_surface_create_capsule(0.1f, 0, &made) == NADE_ERROR_ARGUMENT);
-  CHECK(nade_surface_create_plate(outline, 2, 0.1f, &made) == NADE_ERROR_ARGUMENT);
-  CHECK(nade_surface_create_plate(line, 3, 0.1f, &made) == NADE_ERROR_ARGUMENT);
+  CHECK(nade_surface_create_cylinder(0.1, 0, 0, &made) == NADE_ERROR_ARGUMENT);
+  CHECK(nade_surface_create_cylinder(0.1, 0.2, 0.15, &made) == NADE_ERROR_ARGUMENT);
+  CHECK(nade_surface_create_capsule(-0.1, 0.2, &made) == NADE_ERROR_ARGUMENT);
+  CHECK(nade_surface_create_capsule(0.1, 0, &made) == NADE_ERROR_ARGUMENT);
+  CHECK(nade_surface_create_plate(outline, 2, 0.1, &made) == NADE_ERROR_ARGUMENT);
+  CHECK(nade_surface_create_plate(line, 3, 0.1, &made) == NADE_ERROR_ARGUMENT);
   CHECK(nade_surface_create_plate(outline, 3, 0, &made) == NADE_ERROR_ARGUMENT);
-  CHECK(nade_surface_create_plate(NULL, 3, 0.1f, &made) == NADE_ERROR_ARGUMENT);
+  CHECK(nade_surface_create_plate(NULL, 3, 0.1, &made) == NADE_ERROR_ARGUMENT);
   CHECK(nade_surface_create_hull(flat, 3, &made) == NADE_ERROR_ARGUMENT);
   CHECK(nade_surface_create_hull(flat, 4, &made) == NADE_ERROR_DATA);
-  CHECK(nade_surface_create_height_field(heights, 2, 2, 0.1f, &made) == NADE_ERROR_ARGUMENT);
-  CHECK(nade_surface_create_height_field(heights, 1, 2, 0.1f, &made) == NADE_ERROR_ARGUMENT);
+  CHECK(nade_surface_create_height_field(heights, 2, 2, 0.1, &made) == NADE_ERROR_ARGUMENT);
+  CHECK(nade_surface_create_height_field(heights, 1, 2, 0.1, &made) == NADE_ERROR_ARGUMENT);
   CHECK(nade_surface_create_height_field(heights, SIZE_MAX, 2, 1, &made) == NADE_ERROR_ARGUMENT);
   CHECK(nade_surface_create_group(NULL, 1, &made) == NADE_ERROR_ARGUMENT);
   CHECK(made == NULL);
-  CHECK_OK(nade_surface_create_plate(outline, 3, 0.1f, &made));
+  CHECK_OK(nade_surface_create_plate(outline, 3, 0.1, &made));
   CHECK(nade_surface_refit(made, outline, 2) == NADE_ERROR_HANDLE);
   CHECK(nade_surface_place_member(made, 0, NULL) == NADE_ERROR_HANDLE);
   CHECK(nade_scene_destroy((nade_scene*)made) == NADE_ERROR_HANDLE);
@@ -244,10 +245,10 @@ static void check_wrong_scenes(void) {
   CHECK(nade_scene_add(scene, 1, plane, &mirrored, NULL) == NADE_ERROR_ARGUMENT);
   CHECK(nade_scene_add(scene, 1, plane, NULL, &feel) == NADE_ERROR_ARGUMENT);
   CHECK_OK(nade_feel_init(&feel));
-  feel.softness_m = 0.03f;
+  feel.softness_m = 0.03;
   CHECK(nade_scene_add(scene, 1, plane, NULL, &feel) == NADE_ERROR_ARGUMENT);
   CHECK(strstr(nade_last_error(), "softness_m") != NULL);
-  feel.softness_m = 0.02f;
+  feel.softness_m = 0.02;
   CHECK_OK(nade_scene_add(scene, 1, plane, NULL, &feel));
   CHECK(nade_scene_add(scene, 1, plane, NULL, NULL) == NADE_ERROR_ID);
   CHECK(nade_scene_place(scene, 2, NULL) == NADE_ERROR_ID);
