@@ -9,7 +9,7 @@ static int check(nade_status status) {
 }
 
 int main(void) {
-  static const int32_t shown[] = {NADE_JOINT_PALM, NADE_JOINT_INDEX_TIP, NADE_JOINT_LITTLE_TIP};
+  const int32_t shown[] = {NADE_JOINT_PALM, NADE_JOINT_INDEX_TIP, NADE_JOINT_LITTLE_TIP};
   const nade_placement below = {{0, 0, 0, 1}, {0, -0.15f, 0}, 1}; /* the ball's top is y = 0 */
   nade_corrector* corrector = NULL;                               /* one for each hand */
   nade_surface* ball = NULL;

@@ -31,7 +31,7 @@
  * library takes any size that ends with one of its fields, at least the first after `size`; fields
  * that are missing have their default, or are not written. A longer struct, of a newer header, is
  * taken if what is beyond the known fields is all 0; of one that is written that is set to 0.
- * The others never change.
+ * (No more than 4096 bytes of it: so a size that was never set is told.) The others never change.
  *
  * Memory. Arrays that are passed are read during the call and not kept. Functions that a program
  * calls in every frame say that they do not allocate.
@@ -276,7 +276,7 @@ typedef struct nade_surface_callbacks {
   void* user;        /* passed to each of them */
   /* The nearest point of the surface that is no farther than `max_distance`, which may be
    * infinite: 1, or 0 where there is none. `hint` is UINT32_MAX or what an earlier query nearby
-   * left there, for the callback's own use. */
+   * left there, below 2^24 - 1, for the callback's own use. */
   int32_t (*closest_point)(void* user, const double query[3], double max_distance, uint32_t* hint,
                            nade_surface_point* point);
   /* The first hit of a ray, from either side, no farther than `max_distance`; `direction` is unit.
@@ -297,19 +297,19 @@ typedef struct nade_group_member {
   nade_placement placement; /* in the group's frame */
 } nade_group_member;
 
-/* The skinned hand that a program draws, in its bind pose, metres. */
+/* The skinned hand that a program draws, in its bind pose, metres. Skin of NADE_JOINT_PALM goes
+ * with the middle metacarpal. */
 typedef struct nade_hand_mesh {
   uint32_t size;
   nade_side side;
   uint32_t vertex_count;
   uint32_t triangle_count;
-  const float* vertices; /* vertex_count times x y z */
-  const float* normals;  /* vertex_count times x y z, unit */
-  const uint32_t*
-      triangles;          /* triangle_count times three indices, counter-clockwise from outside */
-  const uint8_t* bones;   /* vertex_count times four of NADE_JOINT_ */
-  const float* weights;   /* vertex_count times four, 0 or more, of a sum above 0 */
-  const nade_joint* bind; /* NADE_JOINT_COUNT joints; frames as for tracked hands */
+  const float* vertices;     /* vertex_count times x y z */
+  const float* normals;      /* vertex_count times x y z, unit */
+  const uint32_t* triangles; /* triangle_count times three indices, as of a nade_mesh */
+  const uint8_t* bones;      /* vertex_count times four of NADE_JOINT_ */
+  const float* weights;      /* vertex_count times four, 0 or more, of a sum above 0 */
+  const nade_joint* bind;    /* NADE_JOINT_COUNT joints; frames as for tracked hands */
 } nade_hand_mesh;
 
 /* --- Library -------------------------------------------------------------------------------- */

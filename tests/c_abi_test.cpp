@@ -412,6 +412,7 @@ struct OwnBall {
   std::uint64_t shape = 0;
   bool tells_nonsense = false;
   int released = 0;
+  int rays = 0;
 
   static std::int32_t closest_point(void* user, const double query[3], double max_distance,
                                     std::uint32_t* /*hint*/, nade_surface_point* point) {
@@ -426,6 +427,18 @@ struct OwnBall {
       point->point[i] = ball.radius_m * normal[i];
     }
     point->signed_distance = distance;
+    return 1;
+  }
+  static std::int32_t first_hit(void* user, const double origin[3], const double direction[3],
+                                double max_distance, nade_ray_hit* hit) {
+    OwnBall& ball = *static_cast<OwnBall*>(user);
+    ++ball.rays;
+    const auto found =
+        SphereSurface(ball.radius_m).first_hit({Vec3(origin), Vec3(direction), max_distance});
+    if (!found) return 0;
+    for (int i = 0; i < 3; ++i) hit->point[i] = found->point[i];
+    for (int i = 0; i < 3; ++i) hit->normal[i] = 3.0 * found->normal[i];
+    hit->distance = found->distance;
     return 1;
   }
   static std::uint64_t shape_of(void* user) { return static_cast<OwnBall*>(user)->shape; }
@@ -469,6 +482,17 @@ TEST(CAbi, SurfacesOfOnesOwn) {
     EXPECT_EQ(own.released, 0);
   }
   EXPECT_EQ(own.released, 1);
+}
+
+TEST(CAbi, RaysOfOnesOwn) {
+  OwnBall own;
+  nade_surface_callbacks callbacks = own.callbacks();
+  callbacks.first_hit = OwnBall::first_hit;
+  CSurface surface;
+  NADE_ASSERT_OK(nade_surface_create_custom(&callbacks, surface.put()));
+  EXPECT_LT(largest_difference(Handedness::left, Method::paper, test::kBall, surface, -0.15F, 0.0),
+            kMicrometre);
+  EXPECT_GT(own.rays, 100);
 }
 
 /// As long as a scene has it; a hand rests on it while it goes.

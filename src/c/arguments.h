@@ -112,7 +112,7 @@ class Arguments {
  private:
   template <class Struct>
   [[nodiscard]] static bool has_known_size(const Struct& value) {
-    // A struct will hardly grow beyond that: a size that was never set is told.
+    // A size that was never set is told: no struct will grow by that.
     constexpr std::size_t kMostNew = 4096;
     if (value.size >= sizeof(Struct)) return value.size <= sizeof(Struct) + kMostNew;
     for (const std::size_t end : FieldEnds<Struct>::kEnds) {
@@ -144,7 +144,12 @@ void write(const Struct& value, Struct& target) {
   std::memset(bytes + known, 0, size - known);
 }
 
-#define NADE_C_END(type, field) (offsetof(type, field) + sizeof(type::field))
+template <class Struct, class Field>
+[[nodiscard]] constexpr std::size_t size_of(Field Struct::* /*field*/) {
+  return sizeof(Field);  // NOLINT(bugprone-sizeof-expression): of pointers, too
+}
+
+#define NADE_C_END(type, field) (offsetof(type, field) + size_of(&type::field))
 
 template <>
 struct FieldEnds<nade_feel> {

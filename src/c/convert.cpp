@@ -1,6 +1,5 @@
 #include "convert.h"
 
-#include <cstring>
 #include <limits>
 
 #include "arguments.h"
@@ -20,6 +19,12 @@ Quat quaternion_from(const float* values) {
 bool can_be_unit(const Quat& rotation) {
   const double length = rotation.norm();
   return length >= kShortestRotation && length <= kLongestRotation;
+}
+
+/// Also where they are no numbers.
+template <class Vector>
+bool are_same(const Vector& one, const Vector& other) {
+  return (one.array() == other.array() || (one.array().isNaN() && other.array().isNaN())).all();
 }
 
 nade_contact contact_from(const SkinContact& contact) {
@@ -58,8 +63,9 @@ void put_hand(const HandPose& hand, const HandPose& tracked, const nade_joint* g
               nade_joint* drawn) noexcept {
   for (std::size_t i = 0; i < kJointCount; ++i) {
     const Pose& pose = hand.joints[i];
-    // By its bits: what is not a number comes back as well.
-    const bool is_tracked = std::memcmp(&pose, &tracked.joints[i], sizeof pose) == 0;
+    const Pose& seen = tracked.joints[i];
+    const bool is_tracked = are_same(pose.position, seen.position) &&
+                            are_same(pose.rotation.coeffs(), seen.rotation.coeffs());
     nade_joint joint = is_tracked ? given[i] : joint_from(pose);
     joint.radius = given[i].radius;
     drawn[i] = joint;

@@ -23,7 +23,7 @@ void* g_callback_user = nullptr;
   throw std::logic_error(std::string("a broken precondition, ") + condition);
 }
 
-[[maybe_unused]] const AssertHandler g_default_handler = set_assert_handler(throw_failure);
+[[maybe_unused]] const AssertHandler kHandlerBefore = set_assert_handler(throw_failure);
 #endif
 
 }  // namespace

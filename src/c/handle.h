@@ -112,8 +112,8 @@ class HandlePool {
   static constexpr std::size_t kKeptFree = 64;
 
   [[nodiscard]] static HandlePool& instance() {
-    static HandlePool* const pool = new HandlePool;  // handles may be destroyed after `main`
-    return *pool;
+    static HandlePool* const kPool = new HandlePool;  // handles may be destroyed after `main`
+    return *kPool;
   }
 
   [[nodiscard]] Handle* free_place() {
