@@ -6,7 +6,7 @@
 
 PREFIX ?= /usr/local
 SECONDS ?= 60
-sources = $(shell find apps assets bench examples include src tests tools -name '*.h' -o -name '*.cpp')
+sources = $(shell find apps assets bench examples include src tests tools -name '*.h' -o -name '*.c' -o -name '*.cpp')
 
 help: ## List these targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 14

@@ -2,6 +2,10 @@
 include(CMakePackageConfigHelpers)
 
 set(nade_libraries nade)
+if(NADE_BUILD_C)
+  list(APPEND nade_libraries nade_c nade_c_static)
+  install(FILES include/nade.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+endif()
 if(NADE_BUILD_IO)
   list(APPEND nade_libraries nade_io)
 endif()
@@ -43,12 +47,18 @@ install(FILES "${PROJECT_BINARY_DIR}/nadeConfig.cmake" "${PROJECT_BINARY_DIR}/na
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/nade)
 
 # Written while installing, because the prefix may be chosen only then.
-install(CODE "set(CMAKE_INSTALL_LIBDIR \"${CMAKE_INSTALL_LIBDIR}\")
+set(nade_pkg_configs nade-cpp)
+if(NADE_BUILD_C)
+  list(APPEND nade_pkg_configs nade)
+endif()
+foreach(name ${nade_pkg_configs})
+  install(CODE "set(CMAKE_INSTALL_LIBDIR \"${CMAKE_INSTALL_LIBDIR}\")
 set(CMAKE_INSTALL_INCLUDEDIR \"${CMAKE_INSTALL_INCLUDEDIR}\")
 set(PROJECT_VERSION \"${PROJECT_VERSION}\")
 set(PROJECT_DESCRIPTION \"${PROJECT_DESCRIPTION}\")
-configure_file(\"${PROJECT_SOURCE_DIR}/cmake/nade.pc.in\" \"${PROJECT_BINARY_DIR}/nade.pc\" @ONLY)")
-install(FILES "${PROJECT_BINARY_DIR}/nade.pc" DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+configure_file(\"${PROJECT_SOURCE_DIR}/cmake/${name}.pc.in\" \"${PROJECT_BINARY_DIR}/${name}.pc\" @ONLY)")
+  install(FILES "${PROJECT_BINARY_DIR}/${name}.pc" DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endforeach()
 
 if(NADE_BUILD_APPS)
   install(TARGETS nade_cli)

@@ -21,3 +21,16 @@ function(nade_target target)
     target_compile_definitions(${target} PRIVATE NADE_SANITIZED)
   endif()
 endfunction()
+
+# A program in C, as those have it who use nade.h.
+function(nade_c_program target)
+  set_target_properties(${target} PROPERTIES C_STANDARD 99 C_EXTENSIONS OFF)
+  target_compile_options(${target} PRIVATE
+    $<$<C_COMPILER_ID:GNU,Clang,AppleClang>:-Wall;-Wextra;-pedantic>)
+  target_link_libraries(${target} PRIVATE nade::c)
+  if(NADE_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${NADE_SANITIZE} -fno-sanitize-recover=all)
+    # With clang only a C++ program has the sanitizers' runtime for C++.
+    set_target_properties(${target} PROPERTIES LINKER_LANGUAGE CXX)
+  endif()
+endfunction()

@@ -370,7 +370,7 @@ void HandCorrector::follow_length(double length_m) noexcept {
   if (options_.hand_length_m > 0.0) hand_length_m_ = options_.hand_length_m;
 }
 
-const HandFlesh& HandCorrector::flesh_of(Handedness side) const noexcept {
+const HandFlesh& HandCorrector::flesh_of(Handedness side) const {
   const std::shared_ptr<const HandFlesh>& own = options_.flesh[index_of(side)];
   return own ? *own : generic_flesh(side);
 }

@@ -202,7 +202,7 @@ class HandCorrector {
                         std::int64_t time_ns) noexcept;
   void follow_proxy(const HandPose& tracked, const Object& object, std::int64_t time_ns) noexcept;
   void forget_proxies() noexcept;
-  [[nodiscard]] const HandFlesh& flesh_of(Handedness side) const noexcept;
+  [[nodiscard]] const HandFlesh& flesh_of(Handedness side) const;
   [[nodiscard]] SkinDepths skin_of(const HandPose& tracked) const noexcept;
   void release(const HandPose& tracked, const Correction& correction,
                std::int64_t time_ns) noexcept;

@@ -72,4 +72,8 @@ inline constexpr std::size_t kMostSkinPoints = 1280;
 /// programs that load no hand mesh.
 [[nodiscard]] const HandFlesh& generic_flesh(Handedness side);
 
+/// The generic hand as its mesh is bound: its palm joint in the origin, palm down, fingers along
+/// -Z. Radii 0.
+[[nodiscard]] HandPose generic_rest_pose(Handedness side);
+
 }  // namespace nade

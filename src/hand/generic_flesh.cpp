@@ -68,4 +68,10 @@ const HandFlesh& generic_flesh(Handedness side) {
   return kFlesh[index_of(side)];
 }
 
+HandPose generic_rest_pose(Handedness side) {
+  const HandPose bind = bind_pose();
+  const HandPose right = moved(bind, bind[Joint::palm].inverse());
+  return side == Handedness::right ? right : mirrored(right);
+}
+
 }  // namespace nade

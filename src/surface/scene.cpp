@@ -15,6 +15,12 @@ bool Scene::add(ObjectId id, const Surface& surface, const Placement& placement,
   NADE_ASSERT(check_options(feel).ok());
   if (index_.contains(id)) return false;
   const Member added{id, Object(surface, placement, new_shape()), feel, surface.bounds()};
+  if (members_.size() == members_.capacity()) {
+    // Before anything changes: where there is no memory nothing does.
+    const std::size_t room = 2 * members_.size() + 8;
+    balls_.reserve(room);
+    members_.reserve(room);
+  }
   index_.emplace(id, members_.size());
   members_.push_back(added);
   balls_.push_back(ball_of(added));
