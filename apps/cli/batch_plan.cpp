@@ -67,10 +67,9 @@ void add_batch_options(CLI::App& command, BatchOptions& options) {
       .add_option_function<std::string>(
           "--ending",
           [&options](const std::string& ending) {
-            const std::string content = content_ending_of("x" + ending);
-            if (content != ".jsonl" && content != ".csv") {
-              throw CLI::ValidationError(fmt::format(
-                  "--ending: expected .jsonl, .jsonl.gz, .csv or .csv.gz, found '{}'", ending));
+            if (!is_recording_ending("x" + ending)) {
+              throw CLI::ValidationError(
+                  fmt::format("--ending: expected {}, found '{}'", kRecordingEndings, ending));
             }
             options.ending = ending;
           },

@@ -49,14 +49,19 @@ Status check_apart(const std::vector<NamedFile>& outputs, const std::vector<Name
   return ok_status();
 }
 
+bool is_recording_ending(const std::string& name) {
+  const std::string ending = content_ending_of(name);
+  return ending == ".jsonl" || ending == ".csv" ||
+         (ending == ".glb" && OutputFile::encoding_of(name) == OutputFile::Encoding::plain);
+}
+
 Status check_recording_name(const std::string& option, const std::string& name) {
   std::error_code ignored;
   if (name == kStandardStream || fs::is_other(name, ignored)) return ok_status();
   const std::string ending = content_ending_of(name);
-  if (ending.empty() || ending == ".jsonl" || ending == ".csv") return ok_status();
-  return misuse(fmt::format(
-      "{}: expected a name ending in .jsonl or .csv, or in .gz after one of them, found '{}'",
-      option, name));
+  if (ending.empty() || is_recording_ending(name)) return ok_status();
+  return misuse(
+      fmt::format("{}: expected a name ending in {}, found '{}'", option, kRecordingEndings, name));
 }
 
 bool lies_in(const std::string& path, const std::string& folder) {

@@ -22,6 +22,10 @@ struct NamedFile {
 [[nodiscard]] Status check_apart(const std::vector<NamedFile>& outputs,
                                  const std::vector<NamedFile>& inputs);
 
+/// What a recording's name may end in, in words, and whether one does.
+inline constexpr const char* kRecordingEndings = ".jsonl, .jsonl.gz, .csv, .csv.gz or .glb";
+[[nodiscard]] bool is_recording_ending(const std::string& name);
+
 /// Refuses a recording's name with an ending that says it is something else. One without an
 /// ending, standard output, pipes and devices are none.
 [[nodiscard]] Status check_recording_name(const std::string& option, const std::string& name);

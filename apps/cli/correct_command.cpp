@@ -17,6 +17,7 @@
 #include "console.h"
 #include "frame_pipe.h"
 #include "method_options.h"
+#include "model_options.h"
 #include "nade/corrector.h"
 #include "nade/eval/quantile.h"
 #include "nade/io/output_file.h"
@@ -38,6 +39,7 @@ struct CorrectArguments {
   std::string recipe;
   ObjectOptions object;
   MethodOptions method;
+  ModelChoice model;
   std::optional<double> press_m;
   std::optional<std::string> json;
 };
@@ -107,8 +109,10 @@ Result<Summary> correct_all(const CorrectArguments& arguments, const SpooledInpu
   if (!first) return first.error();
   const std::int64_t start_ns = *first ? (*first)->time_ns : 0;
   if (*first) placed.start_animation(start_ns);
-  Result<RecordingWriter> writer =
-      RecordingWriter::create(output, corrected_header(reader->header(), arguments, placed));
+  ModelOptions model{!arguments.model.flat, nullptr};
+  if (arguments.model.with_object) model.object = shown_object(placed);
+  Result<RecordingWriter> writer = RecordingWriter::create(
+      output, corrected_header(reader->header(), arguments, placed), {}, model);
   if (!writer) return writer.error();
   const Object object = placed.object();
   const CorrectorOptions options = options_of(arguments.method);
@@ -285,6 +289,7 @@ void add_correct(CLI::App& app, Action& action) {
   add_press_option(*command, arguments->press_m);
   command->add_option("--json", arguments->json, "writes the summary as JSON; - is standard output")
       ->type_name("FILE");
+  add_model_choice(*command, arguments->model);
   add_method_options(*command, arguments->method);
   command->callback([&action, arguments, command] {
     arguments->recipe = recipe_of(*command);

@@ -107,6 +107,8 @@ struct DigitJoints {
 [[nodiscard]] std::string_view name_of(Handedness side);
 /// "free", "corrected", "released" or "untracked".
 [[nodiscard]] std::string_view name_of(HandStatus status);
+/// "pinky-finger-phalanx-proximal", …
+[[nodiscard]] std::string_view webxr_name_of(Joint joint);
 /// A joint by its WebXR name ("pinky-finger-phalanx-proximal"); the palm is "palm".
 [[nodiscard]] std::optional<Joint> joint_from_webxr_name(std::string_view name);
 

@@ -71,6 +71,8 @@ std::string_view name_of(HandStatus status) {
   return kStatusNames[static_cast<std::size_t>(status)];
 }
 
+std::string_view webxr_name_of(Joint joint) { return kNames[index_of(joint)].webxr; }
+
 std::optional<Joint> joint_from_webxr_name(std::string_view name) {
   const auto found = std::find_if(kNames.begin(), kNames.end(),
                                   [&](const JointNames& names) { return names.webxr == name; });

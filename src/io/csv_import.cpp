@@ -51,7 +51,7 @@ void split(std::string_view line, char separator, std::vector<std::string_view>&
 
 std::string quoted(std::string_view text) {
   constexpr std::size_t kLongest = 40;
-  return "'" + plain_text(text.substr(0, kLongest)) + "'";
+  return fmt::format("'{}'", plain_text(text.substr(0, kLongest)));
 }
 
 std::optional<Handedness> side_from(std::string_view text) {

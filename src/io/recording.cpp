@@ -5,6 +5,7 @@
 #include <cctype>
 #include <variant>
 
+#include "animated_hands.h"
 #include "byte_source.h"
 #include "csv_import.h"
 #include "csv_write.h"
@@ -133,11 +134,16 @@ struct RecordingWriter::Impl {
   OutputFile file;
   fmt::memory_buffer buffer;
   bool is_table = false;
+  std::optional<io::AnimatedHands> model;
   std::optional<std::int64_t> last_time_ns;
 
   Status append_frame(const RecordedFrame& frame) {
     const Status checked = io::check_frame(frame);
     if (!checked) return checked;
+    if (model) {
+      model->add(frame);
+      return ok_status();
+    }
     is_table ? io::append_csv_frame(frame, buffer) : io::append_frame(frame, buffer);
     return ok_status();
   }
@@ -155,12 +161,20 @@ RecordingWriter::~RecordingWriter() = default;
 
 Result<RecordingWriter> RecordingWriter::create(const std::string& path,
                                                 const RecordingHeader& header,
-                                                OutputFile::Appears appears) {
+                                                OutputFile::Appears appears,
+                                                const ModelOptions& model) {
+  std::optional<io::AnimatedHands> hands;
+  if (io::names_a_model(path)) {
+    Result<io::AnimatedHands> created = io::AnimatedHands::create(header, model);
+    if (!created) return created.error();
+    hands = std::move(created).value();
+  }
   Result<OutputFile> file = OutputFile::create(path, OutputFile::encoding_of(path), appears);
   if (!file) return file.error();
-  auto impl =
-      std::make_unique<Impl>(Impl{path == "-" ? "standard output" : path, std::move(file).value(),
-                                  fmt::memory_buffer(), io::names_a_table(path), std::nullopt});
+  auto impl = std::make_unique<Impl>(Impl{path == "-" ? "standard output" : path,
+                                          std::move(file).value(), fmt::memory_buffer(),
+                                          io::names_a_table(path), std::move(hands), std::nullopt});
+  if (impl->model) return RecordingWriter(std::move(impl));
   impl->is_table ? io::append_csv_names(impl->buffer) : io::append_header(header, impl->buffer);
   const Status status = impl->write_buffer();
   if (!status) return status.error();
@@ -191,6 +205,14 @@ Status RecordingWriter::flush() {
 
 Status RecordingWriter::finish() {
   NADE_ASSERT(impl_ != nullptr);
+  if (impl_->model) {
+    const Result<std::string> bytes = impl_->model->as_glb();
+    if (!bytes) {
+      return Error{bytes.error().code, fmt::format("{}: {}", impl_->name, bytes.error().message)};
+    }
+    const Status written = impl_->file.write(*bytes);
+    if (!written) return written;
+  }
   return impl_->file.finish();
 }
 

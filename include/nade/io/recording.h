@@ -9,6 +9,7 @@
 
 #include "nade/hand.h"
 #include "nade/io/output_file.h"
+#include "nade/mesh.h"
 #include "nade/status.h"
 
 namespace nade {
@@ -77,15 +78,24 @@ class RecordingReader {
   std::unique_ptr<Impl> impl_;
 };
 
+/// How a recording becomes an animated model.
+struct ModelOptions {
+  bool chained = true;  ///< each joint hangs on the one before it; else all on the hand
+  /// Shown beside the hands, in world coordinates; may be none.
+  std::shared_ptr<const TriangleSoup> object;
+};
+
 /// Writes our format, or, where the path ends in ".csv" or ".csv.gz", a table with a row for each
-/// hand of a frame (docs/formats.md): gzip where it ends in ".gz", standard output for "-". The
-/// file appears under its name, whole, in `finish`, and not at all if that is never reached; or,
+/// hand of a frame, or, where it ends in ".glb", a glTF model of the skinned hands that is animated
+/// (docs/formats.md): gzip where it ends in ".gz", standard output for "-". A model is written in
+/// `finish`, and takes 700 bytes of memory for each hand of a frame until then. The file appears under its name, whole, in `finish`, and not at all if that is never reached; or,
 /// where asked for, at once.
 class RecordingWriter {
  public:
   [[nodiscard]] static Result<RecordingWriter> create(const std::string& path,
                                                       const RecordingHeader& header,
-                                                      OutputFile::Appears appears = {});
+                                                      OutputFile::Appears appears = {},
+                                                      const ModelOptions& model = {});
   RecordingWriter(RecordingWriter&&) noexcept;
   RecordingWriter& operator=(RecordingWriter&&) noexcept;
   ~RecordingWriter();
