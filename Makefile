@@ -2,7 +2,7 @@
 # neither installed nor fetched again.
 .NOTPARALLEL:
 .DEFAULT_GOAL := help
-.PHONY: help demo test check build bench asan fuzz tsan test-headset tidy format format-check install clean setup
+.PHONY: help demo test check build bench asan fuzz tsan test-headset tidy format format-check install install-all clean setup
 
 PREFIX ?= /usr/local
 SECONDS ?= 60
@@ -51,7 +51,12 @@ format: setup ## Lay out the sources as .clang-format says
 format-check: setup ## Whether `make format` would change anything
 	@clang-format --dry-run --Werror $(sources)
 
-install: build ## Into PREFIX, /usr/local if not given
+install: ## The library for C++ and C into PREFIX, /usr/local if not given; needs Eigen alone
+	@scripts/install_packages --library
+	@scripts/build library
+	@cmake --install build/library --prefix '$(PREFIX)'
+
+install-all: build ## All of it into PREFIX: nade, what it comes with, and every library
 	@cmake --install build/release --prefix '$(PREFIX)'
 
 clean: ## Remove what was built; what was installed and fetched stays

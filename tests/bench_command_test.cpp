@@ -79,6 +79,15 @@ TEST_F(BenchCommand, ThePapersTargetsNeedNotBeAskedFor) {
   EXPECT_EQ(print_of(alone), print_of(beside));
 }
 
+TEST_F(BenchCommand, EveryNthCaseIsTheFirstOfEachN) {
+  const Ran ran = nade("bench --quick --method none --every 5 --json -");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const auto cases = nlohmann::json::parse(ran.out)["cases"];
+  ASSERT_EQ(cases.size(), 3U);  // of twelve
+  EXPECT_EQ(cases[0], "plane line 0.1 m/s 20 mm");
+  EXPECT_EQ(cases[1], "dog/ear line 0.1 m/s 4 mm");
+}
+
 TEST_F(BenchCommand, WorstCasesCanBeMeasuredAgain) {
   const Ran ran = nade("bench --quick --filter box/ --method paper,none --csv - --dump worst");
   ASSERT_EQ(ran.status, 0) << ran.err;

@@ -32,6 +32,7 @@ struct BenchArguments {
   std::vector<std::string> meshes;
   std::string clips;
   std::string scenes;  ///< a folder; empty: those that come with nade
+  std::size_t every = 1;
   std::size_t jobs = std::max(1U, std::thread::hardware_concurrency());
   std::optional<std::string> json;
   std::optional<std::string> csv;
@@ -97,6 +98,11 @@ Result<BenchPlan> plan_of(const BenchArguments& arguments) {
   if (plan.cases.empty()) {
     return misuse(fmt::format("--filter '{}': no case has that in its name", arguments.filter));
   }
+  std::vector<SuiteCase> kept;
+  for (std::size_t i = 0; i < plan.cases.size(); i += arguments.every) {
+    kept.push_back(std::move(plan.cases[i]));
+  }
+  plan.cases = std::move(kept);
   return plan;
 }
 
@@ -165,6 +171,9 @@ void add_bench(CLI::App& app, Action& action) {
                    "a folder of scenes, or none (default those that come with nade)")
       ->type_name("DIR")
       ->excludes(quick);
+  command->add_option("--every", arguments->every, "of these only the first of each N")
+      ->type_name("N")
+      ->transform(whole_number_in(1, 1000));
   command->add_option("--jobs", arguments->jobs, "cases worked on at a time (default all cores)")
       ->type_name("N")
       ->transform(whole_number_in(1, 256));
