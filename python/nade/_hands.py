@@ -371,8 +371,8 @@ def correct(
         raise ValueError(f"times_ns: expected times that increase, frame {back[0] + 1} does not")
     placed = placements(placement, count)
     results = np.zeros(count, _RESULT)
-    results["joints"] = hands
     is_missing = np.isnan(hands["position"]).all(axis=(1, 2))
+    results["joints"][is_missing] = hands[is_missing]
     results["status"][is_missing] = HandStatus.UNTRACKED
     results["fault"][is_missing] = Fault.NOT_FINITE
     corrector = Corrector(method, feel, release, hand_length, flesh)
