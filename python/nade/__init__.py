@@ -12,8 +12,8 @@ x y z w, lengths from 0.5 to 2 are made unit. A hand has 26 joints in the order 
 (`JOINT_NAMES`), in frames as OpenXR has them: -Z to the fingertip, +Y to the back of the hand, for
 both hands.
 
-Errors: `NadeError`, TypeError and ValueError, with one sentence that names the argument. A call that
-failed has changed nothing.
+Errors: `NadeError`, TypeError and ValueError, with one sentence that names the argument. A call
+that failed has changed nothing.
 """
 
 from ._hands import (

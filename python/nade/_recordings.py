@@ -11,7 +11,7 @@ import shutil
 import stat
 import warnings
 import zlib
-from typing import Any, BinaryIO, Iterator, Optional, Union
+from typing import IO, Any, Iterator, Optional, Union, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -61,7 +61,8 @@ class RecordedHand:
     @property
     def is_tracked(self) -> npt.NDArray[np.bool_]:
         """(F,), whether the hand is in each frame."""
-        return ~np.isnan(self.positions).all(axis=(1, 2))
+        tracked: npt.NDArray[np.bool_] = ~np.isnan(self.positions).all(axis=(1, 2))
+        return tracked
 
 
 @dataclasses.dataclass
@@ -106,15 +107,16 @@ class _Lines:
     def place(self) -> str:
         return f"{self.name}: line {self.line}"
 
-    def warn(self, sentence: str) -> None:
-        warnings.warn(sentence, RecordingWarning, stacklevel=4)
+    def warn(self, sentence: str, depth: int) -> None:
+        """`depth`: how many calls it is below `read_recording`."""
+        warnings.warn(sentence, RecordingWarning, stacklevel=2 + depth)
 
-    def values(self, file: BinaryIO) -> Iterator[Any]:
+    def values(self, file: IO[bytes]) -> Iterator[Any]:
         while True:
             try:
                 text = file.readline(_LONGEST_LINE + 1)
             except EOFError:
-                self.warn(f"{self.place}: cut off after this line")
+                self.warn(f"{self.place}: cut off after this line", 3)
                 return
             except (gzip.BadGzipFile, zlib.error) as error:
                 sentence = f"damaged gzip data after this line: {error}"
@@ -132,7 +134,7 @@ class _Lines:
                 value = json.loads(text.decode("utf-8"))
             except (ValueError, RecursionError) as error:
                 if not text.endswith(b"\n"):
-                    self.warn(f"{self.place}: cut off here; the line is left out")
+                    self.warn(f"{self.place}: cut off here; the line is left out", 3)
                     return
                 raise _wrong(self.place, f"expected JSON: {error}") from error
             yield value
@@ -217,7 +219,7 @@ class _Reader:
         self.left_out: list[str] = []
         self.made_unit: list[str] = []
 
-    def read(self, file: BinaryIO) -> Recording:
+    def read(self, file: IO[bytes]) -> Recording:
         values = self.lines.values(file)
         header = next(values, None)
         if not isinstance(header, dict):
@@ -226,15 +228,13 @@ class _Reader:
         for key, expected in (("format", _FORMAT), ("version", _VERSION)):
             found = header.pop(key, None)
             if type(found) is not type(expected) or found != expected:
-                raise _wrong(
-                    self.lines.place, f"expected the {key} {expected!r}, found {found!r}"
-                )
+                raise _wrong(self.lines.place, f"expected the {key} {expected!r}, found {found!r}")
         for value in values:
             self._read_frame(value)
         for places in (self.left_out, self.made_unit):
             if places:
                 more = f" (and {len(places) - 1} more)" if len(places) > 1 else ""
-                self.lines.warn(places[0] + more)
+                self.lines.warn(places[0] + more, 2)
         return Recording(
             times_ns=np.array(self.times, np.int64),
             left=self._hand("left"),
@@ -300,7 +300,7 @@ def read_recording(path: Path) -> Recording:
         if file.peek(2)[:2] != b"\x1f\x8b":
             return _Reader(path).read(file)
         with gzip.GzipFile(fileobj=file) as packed:
-            return _Reader(path).read(packed)
+            return _Reader(path).read(cast(IO[bytes], packed))
 
 
 def _checked_hand(hand: RecordedHand, side: str, frames: int) -> None:
@@ -337,11 +337,16 @@ def _checked_times(recording: Recording) -> list[int]:
     back = np.flatnonzero(times[1:] <= times[:-1])
     if len(back) > 0:
         raise ValueError(f"times_ns: expected times that increase, frame {back[0] + 1} does not")
-    return times.tolist()
+    return [int(time) for time in times]
 
 
-def _text(value: dict[str, Any]) -> bytes:
-    line = json.dumps(value, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+def _text(name: str, known: dict[str, Any], other: dict[str, Any]) -> bytes:
+    """A line with the known keys first, whatever the others say about them."""
+    value = {**known, **other, **known}
+    try:
+        line = json.dumps(value, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"{name}: expected keys that JSON can hold: {error}") from error
     return line.encode("utf-8", "replace") + b"\n"
 
 
@@ -353,18 +358,14 @@ def _write_lines(recording: Recording, file: Any) -> None:
         _checked_hand(hand, side, len(times))
         joints = [hand.positions, hand.rotations, np.asarray(hand.radii)[:, :, np.newaxis]]
         hands[side] = (hand, hand.is_tracked, np.concatenate(joints, axis=2, dtype=np.float64))
-    file.write(_text({"format": _FORMAT, "version": _VERSION, **recording.header}))
+    file.write(_text("header", {"format": _FORMAT, "version": _VERSION}, recording.header))
     for i, time in enumerate(times):
         frame: dict[str, Any] = {"t": time}
         for side, (hand, tracked, numbers) in hands.items():
             if tracked[i]:
-                frame[side] = {
-                    "joints": numbers[i].tolist(),
-                    "confidence": float(hand.confidence[i]),
-                    **hand.other.get(i, {}),
-                }
-        frame.update(recording.other.get(i, {}))
-        file.write(_text(frame))
+                known = {"joints": numbers[i].tolist(), "confidence": float(hand.confidence[i])}
+                frame[side] = {**known, **hand.other.get(i, {}), **known}
+        file.write(_text(f"frame {i}", frame, recording.other.get(i, {})))
 
 
 def write_recording(path: Path, recording: Recording) -> None:
@@ -412,8 +413,8 @@ def correct_recording(
 ) -> Recording:
     """Both hands of a recording, corrected by `correct`; what else it has stays.
 
-    The header gets "method", "tool" and, where `feel` has them, "softness" and "friction", each hand
-    its "status". `placement` is one or (F,) by `nade.placement`; `flesh` by side.
+    The header gets "method", "tool" and, where `feel` has them, "softness" and "friction", each
+    hand its "status". `placement` is one or (F,) by `nade.placement`; `flesh` by side.
     """
     if not isinstance(recording, Recording):
         raise TypeError(f"recording: expected a Recording, found {type(recording).__name__}")

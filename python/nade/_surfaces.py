@@ -25,8 +25,9 @@ def placement(
 ) -> npt.NDArray[Any]:
     """Where an object stands, or where it stands in each of F frames.
 
-    `position` (3,) or (F, 3), metres, world; `rotation` (4,) or (F, 4), quaternions x y z w; `scale`
-    () or (F,), above 0, and 0 where the object is hidden. Gives an array of `PLACEMENT`, () or (F,).
+    `position` (3,) or (F, 3), metres, world; `rotation` (4,) or (F, 4), quaternions x y z w;
+    `scale` () or (F,), above 0, and 0 where the object is hidden. Gives an array of `PLACEMENT`, ()
+    or (F,).
     """
     at, turn, size = np.asarray(position), np.asarray(rotation), np.asarray(scale)
     at = numbers("position", at, (None,) * (at.ndim - 1) + (3,), np.float32)
@@ -50,7 +51,8 @@ def placements(
     """`given` in one piece of memory: one placement, or where `count` is given as many."""
     if given is None:
         return None
-    if not isinstance(given, np.ndarray) or given.dtype != PLACEMENT:
+    # One of an array of placements is a np.void.
+    if not isinstance(given, (np.ndarray, np.void)) or given.dtype != PLACEMENT:
         raise TypeError(
             f"placement: expected one by nade.placement, found {type(given).__name__}"
             + (f" of {given.dtype}" if isinstance(given, np.ndarray) else "")
@@ -115,7 +117,7 @@ class Surface(Owner):
         max_distance: float = float("inf"),
         placement: Optional[npt.NDArray[Any]] = None,
     ) -> Optional[SurfacePoint]:
-        """The point nearest to `query` (3,), metres, world; None if none is within `max_distance`."""
+        """The point nearest to `query` (3,), metres, world; None beyond `max_distance`."""
         at = numbers("query", query, (3,), np.float64)
         placed = placements(placement, None)
         point, found = _library.SurfacePoint(), ctypes.c_int32()
@@ -203,7 +205,7 @@ class Capsule(Surface):
 
 
 class Hull(Surface):
-    """The smallest convex solid with all `points` (N, 3) in it, metres; N >= 4, not all in a plane."""
+    """The smallest convex solid with all `points` (N, 3) in it, metres; not all in a plane."""
 
     def __init__(self, points: npt.ArrayLike) -> None:
         corners = numbers("points", points, (None, 3), np.float32)
@@ -238,8 +240,8 @@ class MeshReport:
 class Mesh(Surface):
     """A triangle mesh.
 
-    `vertices` (V, 3) in metres; `triangles` (T, 3), indices of vertices, counter-clockwise seen from
-    outside; `scale` (3,) along x, y and z, none 0. `report` says what was mended. About a second
+    `vertices` (V, 3) in metres; `triangles` (T, 3), indices of vertices, counter-clockwise seen
+    from outside; `scale` (3,) along x, y and z, none 0. `report` says what was mended. About a second
     for a million triangles.
     """
 
@@ -269,7 +271,10 @@ class Mesh(Surface):
         self._make("mesh", ctypes.byref(mesh), ctypes.byref(found))
         self.report = MeshReport(
             solid=("closed", "defective", "sheet")[found.solid],
-            **{field.name: getattr(found, field.name) for field in dataclasses.fields(MeshReport)[1:]},
+            **{
+                field.name: getattr(found, field.name)
+                for field in dataclasses.fields(MeshReport)[1:]
+            },
         )
 
     def refit(self, vertices: npt.ArrayLike) -> None:

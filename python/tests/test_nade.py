@@ -9,6 +9,7 @@ from __future__ import annotations
 import copy
 import ctypes
 import gc
+import importlib
 import json
 import math
 import os
@@ -325,8 +326,6 @@ class Correcting(unittest.TestCase):
             corrector = nade.Corrector()
             for i, hand in enumerate(hands):
                 place = placed[i] if placed is not None and placed.ndim else placed
-                if place is not None:
-                    place = np.array(place)
                 result = corrector.update(hand, surface, i * FRAME_NS, placement=place)
                 self.assertEqual(result.status, drawn.statuses[i])
                 self.assertEqual(len(result.contacts), drawn.contact_counts[i])
@@ -393,9 +392,7 @@ class Correcting(unittest.TestCase):
             bind,
         )
         positions, rotations = stroke(noise_m=0.0)
-        drawn = nade.correct(
-            positions, rotations, times(len(positions)), nade.Plane(), flesh=flesh
-        )
+        drawn = nade.correct(positions, rotations, times(len(positions)), nade.Plane(), flesh=flesh)
         self.assertEqual(drawn.statuses[-1], nade.HandStatus.CORRECTED)
 
     def test_threads_share_a_mesh(self) -> None:
@@ -680,9 +677,17 @@ class Recordings(Folder):
         twice.times_ns[5] = twice.times_ns[4]
         with self.assertRaisesRegex(ValueError, "frame 5"):
             nade.write_recording(path, twice)
+        odd = recording()
+        odd.other[3] = {"mood": math.nan}
+        with self.assertRaisesRegex(ValueError, "frame 3: expected keys that JSON can hold"):
+            nade.write_recording(path, odd)
         self.assertEqual(path.read_text(), "before")
         self.assertEqual(len(list(self.folder.iterdir())), 1)
-        nade.write_recording(path, recording())
+        link = self.folder / "link.jsonl"
+        link.symlink_to(path)
+        nade.write_recording(link, recording())
+        self.assertTrue(link.is_symlink())
+        self.assertEqual(len(nade.read_recording(path)), 150)
         self.assertEqual(path.stat().st_mode & 0o777, 0o640)
 
     def test_corrected(self) -> None:
@@ -781,7 +786,7 @@ class Documents(Folder):
 
     def test_the_example_draws(self) -> None:
         try:
-            import matplotlib  # noqa: F401
+            importlib.import_module("matplotlib")
         except ImportError:
             self.skipTest("no matplotlib")
         example = ROOT / "python/examples/plot_stroke.py"
