@@ -2,7 +2,7 @@
 # neither installed nor fetched again.
 .NOTPARALLEL:
 .DEFAULT_GOAL := help
-.PHONY: help demo test check build bench asan fuzz tsan test-headset tidy format format-check install install-all clean setup
+.PHONY: help demo test check build bench asan fuzz tsan test-headset tidy format format-check python install install-all clean setup
 
 PREFIX ?= /usr/local
 SECONDS ?= 60
@@ -50,6 +50,11 @@ format: setup ## Lay out the sources as .clang-format says
 
 format-check: setup ## Whether `make format` would change anything
 	@clang-format --dry-run --Werror $(sources)
+
+python: ## A wheel for pip, in build/python; needs Eigen and python3
+	@scripts/install_packages --python
+	@scripts/build library nade_c
+	@python/build_wheel build/library/src/c/libnade.so build/python
 
 install: ## The library for C++ and C into PREFIX, /usr/local if not given; needs Eigen alone
 	@scripts/install_packages --library
