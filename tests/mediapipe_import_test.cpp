@@ -175,6 +175,7 @@ class MediapipeImport : public test::RecordingFiles {
 TEST_F(MediapipeImport, StoredFileLoads) {
   const WholeRecording whole = read_whole(kStored);
   expect_moving_hands(whole, 4);
+  ASSERT_EQ(whole.frames.size(), 4u);
   EXPECT_TRUE(other_warnings(whole).empty()) << other_warnings(whole)[0];
   EXPECT_EQ(whole.header.source, "mediapipe");
   EXPECT_FALSE(whole.header.hand_scale_known);
@@ -468,7 +469,8 @@ TEST_F(MediapipeImport, BadInputIsNamed) {
                        "frames[2]: expected a time within 126 years of 0"));
   EXPECT_TRUE(contains(error([](json& r) { r[2] = 5; }),
                        "frames[2]: expected a result of MediaPipe, found a number"));
-  EXPECT_TRUE(contains(error([](json& r) { r[2]["landmarks"] = "none"; }), "found a string"));
+  EXPECT_TRUE(contains(error([](json& r) { r[2]["landmarks"] = "none"; }),
+                       "frames[2]: expected as many hands"));
   EXPECT_TRUE(contains(error([](json& r) {
                          json deep = 1;
                          for (int i = 0; i < 70; ++i) deep = json::array({deep});
@@ -495,8 +497,8 @@ TEST_F(MediapipeImport, CutOffFileIsReadToItsLastWholeFrame) {
 TEST_F(MediapipeImport, FramesWithoutHands) {
   json recording = results(3);
   recording[1] = {{"timestampMs", 1040.0}};
-  recording.insert(recording.begin(),
-                   {{"timestampMs", 0.0}, {"landmarks", json::array()}, {"handedness", nullptr}});
+  const json none{{"timestampMs", 0.0}, {"landmarks", json::array()}, {"handedness", nullptr}};
+  recording.insert(recording.begin(), none);
   const WholeRecording whole = read(recording);
   EXPECT_EQ(whole.error, "");
   ASSERT_EQ(whole.frames.size(), 4u);

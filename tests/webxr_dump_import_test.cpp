@@ -129,7 +129,7 @@ class WebxrDumpImport : public test::RecordingFiles {
           EXPECT_LT((found.joints[j].position - expected.joints[j].position).norm(), within);
           EXPECT_LT(found.joints[j].rotation.angularDistance(expected.joints[j].rotation),
                     10.0 * within);
-          if (j > 0) EXPECT_NEAR(found.radius[j], 0.01, 1e-6);
+          EXPECT_NEAR(found.radius[j], j == 0 ? 0.0 : 0.01, 1e-6);
         }
       }
     }

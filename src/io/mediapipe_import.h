@@ -56,7 +56,7 @@ class MediapipeImport {
   FrameStream frames_;
   RecordingHeader header_;
   Warnings warnings_;
-  HandIntake intake_{1e-3};
+  HandIntake intake_{1e-3, HandIntake::Rotations::inferred};
   std::optional<double> file_aspect_;  ///< where the object around the frames has it
   std::size_t read_ = 0;
   bool timed_ = true;
