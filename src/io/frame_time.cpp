@@ -22,11 +22,12 @@ struct TimeKey {
   const char* key;
   double unit_ns;
 };
-constexpr std::array<TimeKey, 16> kTimeKeys{{{"timestamp_ms", kMillisecond_ns},
+constexpr std::array<TimeKey, 17> kTimeKeys{{{"timestamp_ms", kMillisecond_ns},
                                              {"timestampMs", kMillisecond_ns},
                                              {"time_ms", kMillisecond_ns},
                                              {"timeMs", kMillisecond_ns},
                                              {"t_ms", kMillisecond_ns},
+                                             {"timestampInMilliseconds", kMillisecond_ns},
                                              {"timestamp_us", 1e3},
                                              {"timestampUs", 1e3},
                                              {"time_us", 1e3},

@@ -12,6 +12,8 @@ namespace {
 /// Some seconds: the median over them hardly depends on how the hand is held.
 constexpr std::size_t kFramesAhead = 256;
 constexpr double kFrameWithoutTime_ns = 1e9 / 30.0;
+/// Of a hand in heights of its picture; a hand seen along its length is some hundredths wide.
+constexpr double kSmallestSpread = 1e-4;
 constexpr double kAspectWithoutSize = 4.0 / 3.0;
 /// From the camera to the palm: an arm's length for one on a desk.
 constexpr double kGuessedDepth_m = 0.5;
@@ -142,7 +144,7 @@ void MediapipeImport::learn_picture(Handedness side, const Ahead& first) {
     if (!hand || !hand->picture) return;
     const auto shape = shape_of(*hand, ahead.aspect);
     const double seen = spread_across(in_heights(*hand->picture, ahead.aspect));
-    if (!shape || !(seen > 0.0)) return;
+    if (!shape || !(seen > kSmallestSpread)) return;
     heights_m.push_back(spread_across(with_bones(*shape, *bones_[index_of(side)])) / seen);
   };
   add(first);
