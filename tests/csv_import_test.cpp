@@ -120,6 +120,11 @@ TEST_F(CsvImport, SpellingsOfLoggers) {
          return "Right" + squeezed(plain(j), true) + (part[0] == 'p' ? "Position" : "Rotation") +
                 static_cast<char>(std::toupper(part[1]));
        }},
+      {"Timestamp",
+       [&](Joint j, const std::string& part) {
+         return "XRHandJointID." + squeezed(plain(j), true) +
+                (part[0] == 'p' ? ".position." : ".rotation.") + part[1];
+       }},
       {"time_s",
        [&](Joint j, const std::string& part) {
          std::string name = plain(j);

@@ -222,12 +222,7 @@ TEST_F(LeapImport, BadInputIsNamed) {
                "frames[0]: cut off"));
 }
 
-TEST_F(LeapImport, ResultsOfMediaPipeAreRefusedByName) {
-  for (const char* text : {R"([{"timestamp":0,"landmarks":[[{"x":0.5,"y":0.5,"z":0.1}]]}])",
-                           R"([{"worldLandmarks":[[]],"handedness":[]}])",
-                           R"({"frames":[{"timestamp":0,"multiHandLandmarks":[]}]})"}) {
-    EXPECT_TRUE(contains(read_whole(given("in.json", text)).error, "results of MediaPipe")) << text;
-  }
+TEST_F(LeapImport, OtherFramesAreRefused) {
   EXPECT_TRUE(contains(read_whole(given("in.json", R"([{"timestamp":0,"pose":[]}])")).error,
                        "in.json: frames[0]: expected the \"hands\" of a raw LeapJS frame"));
 }

@@ -48,11 +48,15 @@ std::optional<Handedness> take_side(std::string& word, bool is_first) {
 
 /// Of the words of a name only what tells columns apart, in one.
 std::string told_by(const std::vector<std::string>& words) {
-  constexpr std::array<std::string_view, 8> kNoise{"xr",     "hand",    "joint",    "ext",
+  constexpr std::array<std::string_view, 9> kNoise{"xr",     "xrhand",  "hand",     "joint", "ext",
                                                    "finger", "phalanx", "phalange", "bone"};
   std::string told;
+  std::string_view before;
   for (const std::string& word : words) {
-    if (std::find(kNoise.begin(), kNoise.end(), word) == kNoise.end()) told += word;
+    // An "id" by itself may be anything's.
+    const bool of_joint = word == "id" && before == "joint";
+    if (!of_joint && std::find(kNoise.begin(), kNoise.end(), word) == kNoise.end()) told += word;
+    before = word;
   }
   return told;
 }

@@ -59,6 +59,9 @@ std::string turn_of(const HandCheck& check) {
 }
 
 std::string doubt_of_turns(HandCause cause, const HandCheck& first, double bone_angle_rad) {
+  if (cause == HandCause::swapped_sides && first.cause == HandCause::upside_down) {
+    return fmt::format("{} (the fingers bend to the back of the hand)", name_of(cause));
+  }
   std::string found =
       fmt::format("-Z of the joints is {:.0f} degrees off their bones at the median, expected 0",
                   bone_angle_rad / kDegree);
@@ -116,7 +119,10 @@ void HandIntake::judge(const HandPose& hand) {
   const bool turns = check.has(HandDoubt::turns) || check.has(HandDoubt::bones) ||
                      check.has(HandDoubt::back) || check.has(HandDoubt::bend);
   if (!turns) return;
-  const auto cause = static_cast<std::size_t>(*check.cause);
+  // Inferred from the wrong side, the rotations are as wrong as it.
+  const bool other_side =
+      rotations_ == Rotations::inferred && check.cause == HandCause::upside_down;
+  const auto cause = static_cast<std::size_t>(other_side ? HandCause::swapped_sides : *check.cause);
   if (side.causes[cause]++ == 0) side.first[cause] = check;
 }
 

@@ -28,8 +28,12 @@ class ThinnedValues {
 /// convention than ours.
 class HandIntake {
  public:
+  /// Where the rotations come from: those inferred from the points follow the hand's side.
+  enum class Rotations { read, inferred };
+
   /// `tick_s`: the unit that the file's times are expected in, 1e-3, 1e-6 or 1e-9.
-  explicit HandIntake(double tick_s) : tick_s_(tick_s) {}
+  explicit HandIntake(double tick_s, Rotations rotations = Rotations::read)
+      : tick_s_(tick_s), rotations_(rotations) {}
 
   /// Makes rotations unit. False, with a warning, where the hand cannot be used even so. `place`
   /// is what warnings name ("clip.jsonl: line 3").
@@ -54,6 +58,7 @@ class HandIntake {
   [[nodiscard]] std::optional<std::string> doubt_of_time() const;
 
   double tick_s_;
+  Rotations rotations_;
   std::array<Side, 2> sides_;  ///< by index_of(Handedness)
   std::optional<std::int64_t> last_ns_;
   ThinnedValues step_s_;

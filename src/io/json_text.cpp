@@ -6,14 +6,14 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "sketch_reader.h"
+
 namespace nade::io {
 namespace {
 
 /// Deeper than any recording, shallow enough to recurse through.
 constexpr std::size_t kDeepest = 64;
 /// More than any frame or header has; parsed they take some hundred bytes each.
-
-bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
 bool continues_scalar(char c) {
   return !is_space(c) && c != ',' && c != ']' && c != '}' && c != ':' && c != '"';
@@ -134,64 +134,6 @@ const Sketch::Member* Sketch::find(std::string_view key) const {
                                   [&](const Member& member) { return member.key == key; });
   return found == members.end() ? nullptr : &*found;
 }
-
-namespace {
-
-/// Reads through a text that may end anywhere.
-class SketchReader {
- public:
-  explicit SketchReader(std::string_view text) : text_(text) {}
-
-  [[nodiscard]] bool at_end() {
-    while (at_ < text_.size() && is_space(text_[at_])) ++at_;
-    return at_ >= text_.size();
-  }
-  [[nodiscard]] bool step(char expected) {
-    if (at_end() || text_[at_] != expected) return false;
-    ++at_;
-    return true;
-  }
-  /// The next three characters that are not white space, left in place.
-  [[nodiscard]] std::string begins() const {
-    constexpr std::size_t kCount = 3;
-    std::string result;
-    for (std::size_t i = at_; i < text_.size() && result.size() < kCount; ++i) {
-      if (!is_space(text_[i])) result += text_[i];
-    }
-    return result;
-  }
-  [[nodiscard]] std::string string() {
-    if (!step('"')) return {};
-    const std::size_t start = at_;
-    while (at_ < text_.size() && text_[at_] != '"') at_ += text_[at_] == '\\' ? 2 : 1;
-    at_ = std::min(at_, text_.size());
-    return std::string(text_.substr(start, at_++ - start));
-  }
-  void skip_value() {
-    int depth = 0;
-    while (!at_end()) {
-      const char c = text_[at_];
-      if (c == '"') {
-        static_cast<void>(string());
-      } else if (c == '[' || c == '{') {
-        ++depth;
-        ++at_;
-      } else if (c == ']' || c == '}' || c == ',') {
-        if (depth == 0) return;
-        if (c != ',') --depth;
-        ++at_;
-      } else {
-        ++at_;
-      }
-    }
-  }
-
- private:
-  std::string_view text_;
-  std::size_t at_ = 0;
-};
-
-}  // namespace
 
 Sketch sketch_of(std::string_view text) {
   SketchReader reader(text);

@@ -2,12 +2,15 @@
 
 // Based on: WebXR Input Profiles. generic-hand, @webxr-input-profiles/assets 1.0.20. (its rest
 // pose gives the proportions of what a Leap Motion does not report)
+// Based on: Kabsch. A Solution for the Best Rotation to Relate Two Sets of Vectors. 1976.
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "../ramps.h"
+#include "nade/assert.h"
 
 namespace nade::io {
 namespace {
@@ -93,6 +96,7 @@ std::optional<PalmFrame> palm_frame(const LeapHand& leap) {
   const Vec3& middle = leap.fingers[index_of(Digit::middle)].mcp;
   const Vec3& little = leap.fingers[index_of(Digit::little)].mcp;
   const double scale = (index - little).norm() / (kRest[0].knuckle - kRest[3].knuckle).norm();
+  if (leap.wrist) return PalmFrame{*rotation, scale, *leap.wrist};
   // Sideways the palm's own axis is the better guide: the device spreads its knuckles a little
   // differently about the middle one than the generic hand does.
   const Vec3 knuckle = rotation->conjugate() * (middle - leap.palm);
@@ -155,6 +159,7 @@ LeapHand mirrored(const LeapHand& leap) {
   LeapHand result = leap;
   result.side = leap.side == Handedness::left ? Handedness::right : Handedness::left;
   result.palm = mirrored(leap.palm);
+  if (leap.wrist) result.wrist = mirrored(*leap.wrist);
   result.palm_normal = mirrored(leap.palm_normal);
   result.direction = mirrored(leap.direction);
   for (LeapFinger& finger : result.fingers) {
@@ -162,6 +167,19 @@ LeapHand mirrored(const LeapHand& leap) {
               mirrored(finger.tip)};
   }
   return result;
+}
+
+/// How a right hand's palm is turned whose knuckles lie so from its wrist.
+Quat turn_of_palm(const std::array<Vec3, kRest.size()>& knuckles) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < knuckles.size(); ++i) {
+    sum += knuckles[i] * kRest[i].knuckle.transpose();
+  }
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
+  const Eigen::Matrix3d turn =
+      svd.matrixU() * Vec3(1.0, 1.0, sign).asDiagonal() * svd.matrixV().transpose();
+  return Quat(turn).normalized();
 }
 
 }  // namespace
@@ -183,6 +201,22 @@ HandPose hand_from_leap(const LeapHand& leap) {
   }
   hand[Joint::palm] = {palm_from_middle_metacarpal(hand).position, palm->rotation};
   return hand;
+}
+
+HandPose hand_from_wrist_and_fingers(LeapHand leap) {
+  NADE_ASSERT(leap.wrist.has_value());
+  if (leap.side == Handedness::left) {
+    return nade::mirrored(hand_from_wrist_and_fingers(mirrored(leap)));
+  }
+  std::array<Vec3, kRest.size()> knuckles;
+  for (std::size_t i = 0; i < knuckles.size(); ++i) {
+    knuckles[i] = leap.fingers[i + 1].mcp - *leap.wrist;
+  }
+  const Quat turn = turn_of_palm(knuckles);
+  leap.direction = turn * -Vec3::UnitZ();
+  leap.palm_normal = turn * -Vec3::UnitY();
+  leap.palm = *leap.wrist;
+  return hand_from_leap(leap);
 }
 
 }  // namespace nade::io

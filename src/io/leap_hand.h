@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "nade/hand.h"
 
@@ -14,7 +15,8 @@ struct LeapFinger {
   Vec3 tip = Vec3::Zero();  ///< the end of the last bone, inside the flesh
 };
 
-/// One hand as a Leap Motion v2 reports it: no wrist, no metacarpals. Metres, world frame.
+/// One hand as a Leap Motion v2 reports it: no wrist, no metacarpals. Metres, world frame. Other
+/// devices report a wrist, too.
 struct LeapHand {
   Handedness side = Handedness::right;
   Vec3 palm = Vec3::Zero();
@@ -22,6 +24,7 @@ struct LeapHand {
   Vec3 direction = -Vec3::UnitZ();    ///< from the palm to the fingers
   double confidence = 1.0;
   std::array<LeapFinger, kDigitCount> fingers{};
+  std::optional<Vec3> wrist{};
 };
 
 /// The 26 joints: what was measured as it is; wrist, metacarpal joints and the turn of each bone
@@ -29,5 +32,9 @@ struct LeapHand {
 /// input gives a pose that is not `is_usable`, or one turned like the palm where a bone has no
 /// length.
 [[nodiscard]] HandPose hand_from_leap(const LeapHand& leap);
+
+/// The same of a device that reports a wrist but no palm: the palm is turned so that the generic
+/// hand's knuckles lie nearest to these. `leap` needs its side, fingers and wrist.
+[[nodiscard]] HandPose hand_from_wrist_and_fingers(LeapHand leap);
 
 }  // namespace nade::io

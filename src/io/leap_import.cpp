@@ -12,12 +12,6 @@ namespace {
 constexpr double kMetresPerMillimetre = 1e-3;
 constexpr double kNanosecondsPerMicrosecond = 1e3;
 
-/// What programs call the points that MediaPipe finds.
-constexpr std::array kMediaPipeKeys{
-    "landmarks",      "worldLandmarks",       "world_landmarks",    "handLandmarks",
-    "hand_landmarks", "hand_world_landmarks", "multiHandLandmarks", "multi_hand_landmarks",
-    "handedness",     "handednesses",         "keypoints",          "keypoints3D"};
-
 std::optional<double> finite_number(const Json& object, const char* key) {
   const auto found = object.find(key);
   if (found == object.end() || !found->is_number()) return std::nullopt;
@@ -121,17 +115,9 @@ Result<RecordedFrame> LeapImport::read_frame(const Json& frame) {
   RecordedFrame result;
   const auto hands = frame.find("hands");
   if (hands == frame.end()) {
-    const auto key = std::find_if(kMediaPipeKeys.begin(), kMediaPipeKeys.end(),
-                                  [&](const char* name) { return frame.contains(name); });
-    const std::string found = key == kMediaPipeKeys.end()
-                                  ? "none"
-                                  : fmt::format(
-                                        "\"{}\", as in results of MediaPipe, which have no "
-                                        "rotations and are not read",
-                                        *key);
     return Error{
         ErrorCode::bad_format,
-        fmt::format("{}: expected the \"hands\" of a raw LeapJS frame, found {}", place(), found)};
+        fmt::format("{}: expected the \"hands\" of a raw LeapJS frame, found none", place())};
   }
   const std::optional<double> time_us = finite_number(frame, "timestamp");
   if (!time_us ||

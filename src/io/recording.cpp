@@ -9,10 +9,13 @@
 #include "byte_source.h"
 #include "csv_import.h"
 #include "csv_write.h"
+#include "frame_sketch.h"
 #include "json_text.h"
 #include "leap_import.h"
+#include "mediapipe_import.h"
 #include "nade/io/output_file.h"
 #include "recording_lines.h"
+#include "webxr_dump_import.h"
 #include "webxr_import.h"
 
 namespace nade {
@@ -20,20 +23,23 @@ namespace {
 
 using io::ByteSource;
 using io::CsvImport;
+using io::FrameSketch;
 using io::LeapImport;
+using io::MediapipeImport;
 using io::RecordingLines;
 using io::Sketch;
+using io::WebxrDumpImport;
 using io::WebxrImport;
 
 // As RecordingFormat.
-using AnySource = std::variant<RecordingLines, LeapImport, WebxrImport, CsvImport>;
+using AnySource = std::variant<RecordingLines, LeapImport, WebxrImport, CsvImport, MediapipeImport,
+                               WebxrDumpImport>;
 
 /// Enough to see what a file is.
 constexpr std::size_t kLookAhead = std::size_t{1} << 16;
 constexpr std::string_view kKnownForms =
-    "a nade recording, raw Leap Motion v2 frames (LeapJS JSON), a WebXR action recording or a "
-    "table "
-    "of joints (CSV)";
+    "a nade recording, raw Leap Motion v2 frames (LeapJS JSON), a WebXR action recording, WebXR "
+    "joints (JSON), results of MediaPipe (JSON) or a table of joints (CSV)";
 
 template <class Source>
 Result<AnySource> opened(ByteSource source) {
@@ -54,12 +60,15 @@ Result<AnySource> recognised(ByteSource source) {
   const Sketch sketch = io::sketch_of(beginning);
   if (sketch.begins.empty()) return unknown_form(source.name(), "nothing");
   if (sketch.find("format") != nullptr) return opened<RecordingLines>(std::move(source));
+  if (sketch.find("schema") != nullptr) return opened<WebxrImport>(std::move(source));
+  const FrameSketch frame = io::frame_sketch_of(beginning);
+  if (frame.has_landmarks()) return opened<MediapipeImport>(std::move(source));
+  if (frame.has_webxr_joints()) return opened<WebxrDumpImport>(std::move(source));
   if (sketch.find("t") != nullptr) {
     return unknown_form(source.name(), "a frame in line 1, without the recording's header");
   }
   const Sketch::Member* frames = sketch.find("frames");
   const std::string frames_begin = frames == nullptr ? "" : frames->begins;
-  if (sketch.find("schema") != nullptr) return opened<WebxrImport>(std::move(source));
   if (sketch.begins.starts_with("[{") || frames_begin.starts_with("[{") ||
       frames_begin.starts_with("[]")) {
     return opened<LeapImport>(std::move(source));

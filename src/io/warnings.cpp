@@ -16,6 +16,12 @@ void Warnings::add(Oddity oddity, const std::string& sentence) {
   }
 }
 
+void Warnings::add_once(Oddity oddity, const std::string& sentence) {
+  const bool known = std::any_of(entries_.begin(), entries_.end(),
+                                 [&](const Entry& entry) { return entry.oddity == oddity; });
+  if (!known) entries_.push_back({oddity, sentence, 1});
+}
+
 std::vector<std::string> Warnings::sentences() const {
   std::vector<std::string> result;
   for (const Entry& entry : entries_) {

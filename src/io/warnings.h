@@ -15,6 +15,11 @@ enum class Oddity {
   hand_twice,
   finger_missing,
   palm_missing,
+  time_missing,
+  picture_size_missing,
+  picture_missing,
+  depth_missing,
+  shape_missing,
 };
 
 /// Counts oddities and keeps the first of each kind.
@@ -22,6 +27,8 @@ class Warnings {
  public:
   /// `sentence` names the file, the place, and what was done about it.
   void add(Oddity oddity, const std::string& sentence);
+  /// The same of what holds for a whole file: further ones are not counted.
+  void add_once(Oddity oddity, const std::string& sentence);
 
   /// One sentence a kind, with how many more there were.
   [[nodiscard]] std::vector<std::string> sentences() const;

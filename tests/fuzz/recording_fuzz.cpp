@@ -1,4 +1,4 @@
-// A recording in any of the three formats, plain or gzip: told from its bytes.
+// A recording in any of the formats, plain or gzip: told from its bytes.
 #include <cstddef>
 #include <cstdint>
 

@@ -48,7 +48,14 @@ struct RecordingHeader {
 };
 
 /// What a file is, told from its content.
-enum class RecordingFormat : std::uint8_t { nade, leap_v2, webxr_actions, joint_table };
+enum class RecordingFormat : std::uint8_t {
+  nade,
+  leap_v2,
+  webxr_actions,
+  joint_table,
+  mediapipe_hands,
+  webxr_joints
+};
 
 /// Reads a recording of any known format, plain or gzip, a frame at a time, in memory that does
 /// not grow with its length.
