@@ -2,7 +2,7 @@
 # neither installed nor fetched again.
 .NOTPARALLEL:
 .DEFAULT_GOAL := help
-.PHONY: help demo test check build bench asan fuzz tsan test-headset tidy format format-check install clean setup
+.PHONY: help demo test check build bench asan fuzz tsan test-headset tidy format format-check install clean setup web web-test web-serve setup-web
 
 PREFIX ?= /usr/local
 SECONDS ?= 60
@@ -51,6 +51,17 @@ format: setup ## Lay out the sources as .clang-format says
 format-check: setup ## Whether `make format` would change anything
 	@clang-format --dry-run --Werror $(sources)
 
+web: setup-web ## The npm package and the page, for browsers, in build/web
+	@scripts/web package
+	@scripts/web site
+
+web-test: setup-web ## The package's tests, in Node: against the C library, memory, sizes
+	@scripts/web package
+	@scripts/web test
+
+web-serve: web ## Shows the page on this machine, and prints its address
+	@scripts/web serve
+
 install: build ## Into PREFIX, /usr/local if not given
 	@cmake --install build/release --prefix '$(PREFIX)'
 
@@ -60,3 +71,6 @@ clean: ## Remove what was built; what was installed and fetched stays
 setup:
 	@scripts/install_packages
 	@scripts/fetch_assets
+
+setup-web: setup
+	@scripts/install_packages --web
