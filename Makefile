@@ -2,7 +2,7 @@
 # neither installed nor fetched again.
 .NOTPARALLEL:
 .DEFAULT_GOAL := help
-.PHONY: help demo test check build bench asan fuzz tsan test-headset tidy format format-check python install install-all clean setup
+.PHONY: help demo test check build bench asan fuzz tsan test-headset tidy format format-check python web web-test web-serve install install-all clean setup setup-web
 
 PREFIX ?= /usr/local
 SECONDS ?= 60
@@ -56,6 +56,17 @@ python: ## A wheel for pip, in build/python; needs Eigen and python3
 	@scripts/build library nade_c
 	@python/build_wheel build/library/src/c/libnade.so build/python
 
+web: setup-web ## The npm package and the page, for browsers, in build/web
+	@scripts/web package
+	@scripts/web site
+
+web-test: setup-web ## The package's tests, in Node: against the C library, memory, sizes
+	@scripts/web package
+	@scripts/web test
+
+web-serve: web ## Shows the page on this machine, and prints its address
+	@scripts/web serve
+
 install: ## The library for C++ and C into PREFIX, /usr/local if not given; needs Eigen alone
 	@scripts/install_packages --library
 	@scripts/build library
@@ -70,3 +81,6 @@ clean: ## Remove what was built; what was installed and fetched stays
 setup:
 	@scripts/install_packages
 	@scripts/fetch_assets
+
+setup-web: setup
+	@scripts/install_packages --web

@@ -31,6 +31,9 @@ class FunctionName {
 template <class Body>
 [[nodiscard]] nade_status guarded(const char* function, Body&& body) noexcept {
   const FunctionName name(function);
+#ifndef __cpp_exceptions
+  return body();
+#else
   try {
     return body();
   } catch (const std::bad_alloc&) {
@@ -40,6 +43,7 @@ template <class Body>
   } catch (...) {
     return fail(NADE_ERROR_INTERNAL, "an unknown exception");
   }
+#endif
 }
 
 }  // namespace nade::c_abi

@@ -83,6 +83,15 @@ struct HandleKind<nade_corrector> {
   static constexpr const char* kName = "corrector";
 };
 
+#ifdef __STDCPP_THREADS__
+using Mutex = std::mutex;
+#else
+struct Mutex {
+  void lock() {}
+  void unlock() {}
+};
+#endif
+
 /// All handles of a kind. A place is taken again only when many were destroyed after it.
 template <class Handle>
 class HandlePool {
@@ -127,7 +136,7 @@ class HandlePool {
 
   using Place = decltype(std::declval<Handle&>().next_free);
 
-  std::mutex mutex_;
+  Mutex mutex_;
   std::deque<Handle> places_;
   Place first_free_ = nullptr;
   Place last_free_ = nullptr;

@@ -51,13 +51,13 @@ Adjacency find_neighbours(const WeldedMesh& mesh, MeshReport& report) {
   result.neighbours.resize(count);
   result.alike.resize(count);
   for (std::size_t vertex = 0; vertex < mesh.vertices.size(); ++vertex) {
-    const auto first = edges.begin() + begin[vertex];
-    const auto last = edges.begin() + begin[vertex + 1];
+    HalfEdge* const first = edges.data() + begin[vertex];
+    HalfEdge* const last = edges.data() + begin[vertex + 1];
     std::sort(first, last, [](const HalfEdge& a, const HalfEdge& b) {
       return std::pair(a.other_end, a.triangle) < std::pair(b.other_end, b.triangle);
     });
-    for (auto edge = first; edge != last;) {
-      const auto end = std::find_if(
+    for (HalfEdge* edge = first; edge != last;) {
+      HalfEdge* const end = std::find_if(
           edge, last, [&](const HalfEdge& other) { return other.other_end != edge->other_end; });
       if (end - edge == 2) {
         const HalfEdge& a = edge[0];

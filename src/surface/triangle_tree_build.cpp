@@ -146,22 +146,22 @@ class Builder {
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
       centres.extend(items_[i].twice_centre());
     }
-    const auto begin = items_.begin() + range.begin;
-    const auto end = items_.begin() + range.end;
+    Item* const begin = items_.data() + range.begin;
+    Item* const end = items_.data() + range.end;
     if (depth < kHalvingDepth) {
       const Binning binning(centres);
       const Split split = cheapest(range, binning);
       if (split.axis >= 0) {
-        const auto middle = std::partition(begin, end, [&](const Item& item) {
+        Item* const middle = std::partition(begin, end, [&](const Item& item) {
           return binning.bin(item.twice_centre()[split.axis], split.axis) <= split.bin;
         });
-        return static_cast<std::uint32_t>(middle - items_.begin());
+        return static_cast<std::uint32_t>(middle - items_.data());
       }
     }
     Eigen::Index axis = 0;
     (centres.high - centres.low).maxCoeff(&axis);
     const std::uint32_t middle = range.begin + range.size() / 2;
-    std::nth_element(begin, items_.begin() + middle, end, [axis](const Item& a, const Item& b) {
+    std::nth_element(begin, items_.data() + middle, end, [axis](const Item& a, const Item& b) {
       const float a_centre = a.twice_centre()[axis];
       const float b_centre = b.twice_centre()[axis];
       return a_centre != b_centre ? a_centre < b_centre : a.triangle < b.triangle;

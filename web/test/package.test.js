@@ -1,0 +1,54 @@
+import assert from 'node:assert/strict';
+import {execFileSync} from 'node:child_process';
+import {mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
+import {tmpdir} from 'node:os';
+import {join} from 'node:path';
+import {fileURLToPath} from 'node:url';
+import test from 'node:test';
+import {brotliCompressSync, gzipSync} from 'node:zlib';
+
+import {buildSync} from 'esbuild';
+
+const WASM_BYTES = 170e3;
+const CORE_BYTES = 12e3;
+const folder = fileURLToPath(new URL('..', import.meta.url));
+
+test('size: nade.wasm by brotli, the core’s JavaScript by gzip', (t) => {
+  const wasm = brotliCompressSync(readFileSync(join(folder, 'dist/nade.wasm'))).length;
+  const {outputFiles: [bundle]} = buildSync({entryPoints: [join(folder, 'dist/index.js')],
+                                             bundle: true, format: 'esm', write: false});
+  const core = gzipSync(bundle.contents).length;
+  t.diagnostic(`${(wasm / 1e3).toFixed(1)} KB of ${WASM_BYTES / 1e3}, ` +
+               `${(core / 1e3).toFixed(1)} KB of ${CORE_BYTES / 1e3}`);
+  assert.ok(wasm <= WASM_BYTES, `${wasm} bytes`);
+  assert.ok(core <= CORE_BYTES, `${core} bytes`);
+});
+
+test('packed, installed into an empty project, checked by tsc, bundled and run', () => {
+  const project = mkdtempSync(join(tmpdir(), 'nade-project-'));
+  const run = (command, ...values) =>
+    execFileSync(command, values, {cwd: project, encoding: 'utf8'});
+  try {
+    const packed = execFileSync('npm', ['pack', '--silent', '--pack-destination', project],
+                                {cwd: folder, encoding: 'utf8'}).trim();
+    writeFileSync(join(project, 'package.json'), '{"name":"fresh","type":"module"}');
+    run('npm', 'install', '--silent', '--offline', '--no-audit', `./${packed}`);
+    writeFileSync(join(project, 'use.ts'), `
+      import {load, type Result} from 'nade';
+      import {readRecording} from 'nade/recording';
+      import {PointerHand} from 'nade/pointer';
+      const nade = await load();
+      const hand = new PointerHand(nade.restHand('left'), 'left');
+      const result: Result = nade.corrector().update(
+          'left', hand.update(nade.plane(), {ahead: [0, 0, -1], up: [0, 1, 0]}, 0.01), null, 0);
+      console.log(result.status, typeof readRecording);
+    `);
+    run(join(folder, 'node_modules/.bin/tsc'), '--strict', '--module', 'nodenext', '--target',
+        'es2022', '--skipLibCheck', 'false', '--types', '', 'use.ts');
+    assert.equal(run('node', 'use.js'), 'free function\n');
+    run(join(folder, 'node_modules/.bin/esbuild'), 'use.js', '--bundle', '--format=esm',
+        '--outfile=bundle.js');
+  } finally {
+    rmSync(project, {recursive: true});
+  }
+});
