@@ -25,8 +25,8 @@ class Headset {
   /// no OpenGL.
   [[nodiscard]] static Result<Headset> find(std::span<const GraphicsWay> graphics);
 
-  /// Makes each eye's picture so many times as wide and high as the headset asks, but no larger than
-  /// it can be.
+  /// Makes each eye's picture so many times as wide and high as the headset asks, but no larger
+  /// than it can be.
   void scale_eyes(double factor);
 
   [[nodiscard]] const XrApi& api() const { return api_; }

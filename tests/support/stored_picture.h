@@ -22,8 +22,8 @@ inline std::string drawn_by() {
 }
 
 /// Holds a picture against tests/data/pictures/NAME.png: pixel by pixel where drawn_by.txt there
-/// names the renderer in use; else by its mean difference, and the test says that it skips the rest.
-/// With NADE_TEST_UPDATE set it stores what is drawn now. Look at it before you commit it:
+/// names the renderer in use; else by its mean difference, and the test says that it skips the
+/// rest. With NADE_TEST_UPDATE set it stores what is drawn now. Look at it before you commit it:
 ///
 ///     NADE_TEST_UPDATE=1 ctest --preset release -R '^(draw|stage)'
 inline void expect_stored(const draw::Image& drawn, const std::string& name) {
