@@ -198,6 +198,11 @@ export class PointerHand {
   }
 }
 
+/** The hand of the other side. */
+export function mirrored(hand: Hand): Hand {
+  return hand.map((x, i) => ([1, 2, 4].includes(i % JOINT_FLOATS) ? -x : x));
+}
+
 /** Turns a joint by a rotation in its own frame, and what hangs on it. */
 function bend(hand: Hand, joint: number, tip: number, by: Quaternion): void {
   const own = rotationOf(hand, joint);

@@ -1,0 +1,153 @@
+// The picture: light, floor, camera, and the shade of a hand on what it touches.
+import * as THREE from 'three';
+
+import {JOINT_FLOATS} from '../../src/index.js';
+import type {Hand} from '../../src/index.js';
+
+/** From joint to joint: what of a hand keeps light off. */
+const BONES = [
+  [1, 2], [2, 3], [3, 4], [4, 5], [1, 6], [6, 7], [7, 8], [8, 9], [9, 10], [1, 11], [11, 12],
+  [12, 13], [13, 14], [14, 15], [1, 16], [16, 17], [17, 18], [18, 19], [19, 20], [1, 21], [21, 22],
+  [22, 23], [23, 24], [24, 25],
+];
+const TYPICAL_RADIUS_M = 0.011;
+
+const ends = {value: BONES.flatMap(() => [new THREE.Vector4(0, 9, 0, 0.01),
+                                          new THREE.Vector4(0, 9, 0, 0.01)])};
+
+/** Where the hand is that shades things. */
+export function shadeBy(hand: Hand): void {
+  BONES.flat().forEach((joint, i) => {
+    const at = JOINT_FLOATS * joint;
+    ends.value[i].set(hand[at + 4], hand[at + 5], hand[at + 6], hand[at + 7] || TYPICAL_RADIUS_M);
+  });
+}
+
+/**
+ * Light that a hand keeps off a surface: each bone as a ball at its point nearest to what is shaded.
+ * A shadow map alone leaves hands floating: under a palm no light comes from anywhere.
+ */
+// Based on: Quilez. Sphere ambient occlusion. iquilezles.org.
+export function shadeByHand<Kind extends THREE.MeshStandardMaterial>(material: Kind): Kind {
+  material.onBeforeCompile = (shader) => {
+    shader.uniforms.handEnds = ends;
+    shader.vertexShader = shader.vertexShader
+      .replace('#include <common>', '#include <common>\nvarying vec3 vShadedAt;')
+      .replace('#include <project_vertex>', `#include <project_vertex>
+        vShadedAt = (modelMatrix * vec4(transformed, 1.0)).xyz;`);
+    shader.fragmentShader = shader.fragmentShader
+      .replace('#include <common>', `#include <common>
+        varying vec3 vShadedAt;
+        uniform vec4 handEnds[${2 * BONES.length}];
+        float lightPastHand(vec3 normalWorld) {
+          float light = 1.0;
+          for (int i = 0; i < ${BONES.length}; ++i) {
+            vec4 from = handEnds[2 * i];
+            vec4 bone = handEnds[2 * i + 1] - from;
+            float along = dot(vShadedAt - from.xyz, bone.xyz) / max(dot(bone.xyz, bone.xyz), 1e-8);
+            vec4 ball = from + clamp(along, 0.0, 1.0) * bone;
+            vec3 way = ball.xyz - vShadedAt;
+            float away = max(length(way), ball.w);
+            float facing = clamp(dot(normalWorld, way) / away + 0.15, 0.0, 1.0);
+            light *= 1.0 - 0.9 * facing * ball.w * ball.w / (away * away);
+          }
+          return light;
+        }`)
+      .replace('#include <aomap_fragment>', `#include <aomap_fragment>
+        float pastHand = lightPastHand(inverseTransformDirection(normal, viewMatrix));
+        reflectedLight.indirectDiffuse *= pastHand;
+        reflectedLight.directDiffuse *= mix(1.0, pastHand, 0.6);`);
+  };
+  return material;
+}
+
+export interface View {
+  target: [number, number, number];
+  distance: number;
+  /** Radians: around from +Z, and up. */
+  around: number;
+  up: number;
+}
+
+const BACKGROUND = new THREE.Color('#e6ddd3');
+
+export class Stage {
+  readonly scene = new THREE.Scene();
+  readonly camera = new THREE.PerspectiveCamera(32, 1, 0.05, 20);
+  readonly floor: THREE.Mesh;
+  view: View = {target: [0, 0.3, 0], distance: 1.5, around: 0.3, up: 0.5};
+  private readonly renderer: THREE.WebGLRenderer;
+  private readonly key = new THREE.DirectionalLight('#fff0dc', 2.7);
+  private readonly shown = {target: new THREE.Vector3(0, 0.3, 0), distance: 1.6, around: 0, up: 0.4};
+
+  constructor(private readonly canvas: HTMLCanvasElement) {
+    this.renderer = new THREE.WebGLRenderer({canvas, antialias: true});
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = THREE.PCFSoftShadowMap;
+    this.renderer.toneMapping = THREE.NeutralToneMapping;
+    this.scene.background = BACKGROUND;
+    this.scene.fog = new THREE.Fog(BACKGROUND, 2.2, 5);
+    this.scene.add(new THREE.HemisphereLight('#fdf6ee', '#b29a86', 1.35));
+    const rim = new THREE.DirectionalLight('#dfe8ff', 0.9);
+    rim.position.set(1.5, 1.2, -2);
+    this.scene.add(rim, this.key, this.key.target);
+    this.key.castShadow = true;
+    this.key.shadow.mapSize.set(2048, 2048);
+    this.key.shadow.radius = 5;
+    this.key.shadow.normalBias = 0.003;
+    this.key.shadow.bias = -2e-4;
+    Object.assign(this.key.shadow.camera, {left: -0.7, right: 0.7, top: 0.7, bottom: -0.7,
+                                           near: 0.5, far: 4});
+    this.floor = new THREE.Mesh(
+      new THREE.CircleGeometry(8, 64).rotateX(-Math.PI / 2),
+      shadeByHand(new THREE.MeshStandardMaterial({color: '#d9cdc0', roughness: 0.95})));
+    this.floor.receiveShadow = true;
+    this.scene.add(this.floor);
+  }
+
+  /** Looks from somewhere else; slowly, or at once. */
+  draw(seconds: number): void {
+    const {shown, view, camera} = this;
+    const share = 1 - Math.exp(-seconds / 0.18);
+    shown.target.lerp(new THREE.Vector3(...view.target), share);
+    for (const key of ['distance', 'around', 'up'] as const) {
+      shown[key] += share * (view[key] - shown[key]);
+    }
+    this.fit();
+    // What is wide has to fit into a picture that is high.
+    const distance = shown.distance * Math.max(1, 1.05 / camera.aspect);
+    camera.position.set(Math.sin(shown.around) * Math.cos(shown.up), Math.sin(shown.up),
+                        Math.cos(shown.around) * Math.cos(shown.up))
+      .multiplyScalar(distance).add(shown.target);
+    camera.lookAt(shown.target);
+    camera.updateMatrixWorld();
+    this.key.target.position.copy(shown.target);
+    this.key.position.copy(shown.target).add(new THREE.Vector3(-0.55, 1.7, 0.85));
+    this.renderer.render(this.scene, camera);
+  }
+
+  settle(): void {
+    this.shown.target.set(...this.view.target);
+    Object.assign(this.shown, {distance: this.view.distance, around: this.view.around,
+                               up: this.view.up});
+  }
+
+  /** The ray through a place of the window. */
+  ray(x: number, y: number): THREE.Ray {
+    const caster = new THREE.Raycaster();
+    caster.setFromCamera(new THREE.Vector2(2 * x / this.canvas.clientWidth - 1,
+                                           1 - 2 * y / this.canvas.clientHeight), this.camera);
+    return caster.ray;
+  }
+
+  private fit(): void {
+    const {clientWidth: width, clientHeight: height} = this.canvas;
+    const ratio = Math.min(devicePixelRatio, 2);
+    const size = this.renderer.getSize(new THREE.Vector2());
+    if (size.x === width && size.y === height && this.renderer.getPixelRatio() === ratio) return;
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+  }
+}
