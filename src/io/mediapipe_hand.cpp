@@ -52,6 +52,7 @@ LandmarkBones bones_of(const std::vector<Landmarks>& shapes) {
   for (std::size_t i = 1; i < kLandmarkCount; ++i) {
     // Shares of the whole hand: a picture's hand is larger the nearer it is.
     std::vector<double> shares;
+    shares.reserve(shapes.size());
     for (const Landmarks& shape : shapes) {
       shares.push_back(bone_length(shape, i) / all_bones(shape));
     }
