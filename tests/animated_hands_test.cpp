@@ -64,7 +64,9 @@ class AnimatedHandsTest : public test::FolderTest {
 
   [[nodiscard]] nlohmann::json json_of(const std::string& name) const {
     const std::string bytes = read_file(path(name));
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
+    const auto byte = [&](std::size_t i) {
+      return static_cast<std::size_t>(static_cast<unsigned char>(bytes[i]));
+    };
     const std::size_t length = byte(12) | byte(13) << 8 | byte(14) << 16;
     return nlohmann::json::parse(bytes.substr(20, length));
   }
