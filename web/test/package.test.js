@@ -43,8 +43,9 @@ test('packed, installed into an empty project, checked by tsc, bundled and run',
           'left', hand.update(nade.plane(), {ahead: [0, 0, -1], up: [0, 1, 0]}, 0.01), null, 0);
       console.log(result.status, typeof readRecording);
     `);
-    run(join(folder, 'node_modules/.bin/tsc'), '--strict', '--module', 'nodenext', '--target',
-        'es2022', '--skipLibCheck', 'false', '--types', '', 'use.ts');
+    writeFileSync(join(project, 'tsconfig.json'), JSON.stringify({compilerOptions: {
+      strict: true, module: 'nodenext', target: 'es2022', skipLibCheck: false, types: []}}));
+    run(join(folder, 'node_modules/.bin/tsc'));
     assert.equal(run('node', 'use.js'), 'free function\n');
     run(join(folder, 'node_modules/.bin/esbuild'), 'use.js', '--bundle', '--format=esm',
         '--outfile=bundle.js');

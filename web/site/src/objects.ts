@@ -60,7 +60,7 @@ export async function dog(nade: Nade): Promise<Thing> {
     sheenColor: new THREE.Color('#f3d3ae')}));
   const {vertices, triangles} = trianglesOf(scene);
   return thing(scene, nade.mesh(vertices, triangles), {},
-               {target: [0.03, 0.34, 0], distance: 1.32, around: 0.42, up: 0.4},
+               {target: [0.03, 0.33, 0], distance: 1.5, around: 0.42, up: 0.4},
                (seconds) => new THREE.Vector3(0.085 - 0.145 * Math.cos(1.15 * seconds), 0.44,
                                               0.014 * Math.sin(2.3 * seconds)));
 }

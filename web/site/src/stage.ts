@@ -77,30 +77,33 @@ export class Stage {
   readonly floor: THREE.Mesh;
   view: View = {target: [0, 0.3, 0], distance: 1.5, around: 0.3, up: 0.5};
   private readonly renderer: THREE.WebGLRenderer;
-  private readonly key = new THREE.DirectionalLight('#fff0dc', 2.7);
+  private readonly key = new THREE.DirectionalLight('#fff4e6', 2.4);
   private readonly shown = {target: new THREE.Vector3(0, 0.3, 0), distance: 1.6, around: 0, up: 0.4};
 
   constructor(private readonly canvas: HTMLCanvasElement) {
     this.renderer = new THREE.WebGLRenderer({canvas, antialias: true});
     this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = THREE.PCFSoftShadowMap;
-    this.renderer.toneMapping = THREE.NeutralToneMapping;
+    this.renderer.shadowMap.type = THREE.VSMShadowMap;
+    this.renderer.toneMapping = THREE.AgXToneMapping;
+    this.renderer.toneMappingExposure = 1.25;
     this.scene.background = BACKGROUND;
     this.scene.fog = new THREE.Fog(BACKGROUND, 2.2, 5);
-    this.scene.add(new THREE.HemisphereLight('#fdf6ee', '#b29a86', 1.35));
+    this.scene.add(new THREE.HemisphereLight('#f4f3f2', '#a39a92', 1.7));
     const rim = new THREE.DirectionalLight('#dfe8ff', 0.9);
     rim.position.set(1.5, 1.2, -2);
     this.scene.add(rim, this.key, this.key.target);
     this.key.castShadow = true;
-    this.key.shadow.mapSize.set(2048, 2048);
-    this.key.shadow.radius = 5;
+    this.key.shadow.mapSize.set(1024, 1024);
+    this.key.shadow.radius = 7;
+    this.key.shadow.blurSamples = 16;
+    this.key.shadow.intensity = 0.75;
     this.key.shadow.normalBias = 0.003;
     this.key.shadow.bias = -2e-4;
     Object.assign(this.key.shadow.camera, {left: -0.7, right: 0.7, top: 0.7, bottom: -0.7,
                                            near: 0.5, far: 4});
     this.floor = new THREE.Mesh(
       new THREE.CircleGeometry(8, 64).rotateX(-Math.PI / 2),
-      shadeByHand(new THREE.MeshStandardMaterial({color: '#d9cdc0', roughness: 0.95})));
+      shadeByHand(new THREE.MeshStandardMaterial({color: '#cfc9c2', roughness: 0.95})));
     this.floor.receiveShadow = true;
     this.scene.add(this.floor);
   }
