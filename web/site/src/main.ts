@@ -11,6 +11,7 @@ import type {Thing} from './objects.js';
 import {shadeBy, Stage} from './stage.js';
 
 const SIDE = 'right';
+const PRESSED_M = 0.022;  // as the panel's slider begins
 const LONGEST_STEP_S = 0.05;
 const FIGURES_EACH_S = 0.25;
 
@@ -40,7 +41,7 @@ class Page {
               private readonly skin: DrawnHand, private readonly ghost: DrawnHand) {
     this.things = {dog: dogThing, ball: ball(nade), plane: plane(nade)};
     this.hand = new PointerHand(relaxed, SIDE);
-    this.hand.settings.depth = 0.015;
+    this.hand.settings.depth = PRESSED_M;
     this.corrector = nade.corrector();
     stage.scene.add(skin.root, ghost.root);
     this.controls = new Controls(canvas, () => this.hand.settings, () => stage.view,
@@ -73,7 +74,7 @@ class Page {
       this.spent = [];
       moment.textContent = drawn.contacts.length === 0 ?
         `${drawn.status} · ${mean.toFixed(2)} ms` :
-        `${drawn.contacts.length} bones touch, pressed ${(1000 * deepest).toFixed(0)} mm · ` +
+        `${drawn.contacts.length} bones touch, ${(1000 * deepest).toFixed(0)} mm deep · ` +
         `${mean.toFixed(2)} ms`;
     }
     this.stage.draw(seconds);

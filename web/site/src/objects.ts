@@ -60,14 +60,15 @@ export async function dog(nade: Nade): Promise<Thing> {
     sheenColor: new THREE.Color('#f3d3ae')}));
   const {vertices, triangles} = trianglesOf(scene);
   return thing(scene, nade.mesh(vertices, triangles), {},
-               {target: [0.03, 0.33, 0], distance: 1.5, around: 0.42, up: 0.4},
+               {target: [0.03, 0.33, 0], distance: 1.55, around: 0.42, up: 0.4},
                (seconds) => new THREE.Vector3(0.085 - 0.145 * Math.cos(1.15 * seconds), 0.44,
                                               0.014 * Math.sin(2.3 * seconds)));
 }
 
 /** A GLB file of somebody's own, on the floor, made smaller or larger to be within reach. */
 export async function own(nade: Nade, file: File): Promise<Thing> {
-  const {scene} = await new GLTFLoader().parseAsync(await file.arrayBuffer(), '');
+  const {scene} = await new GLTFLoader().parseAsync(await file.arrayBuffer(), '').catch(
+    () => { throw new Error('expected a GLB file, whole and without Draco compression'); });
   const root = new THREE.Group().add(scene);
   const box = new THREE.Box3().setFromObject(root);
   const size = box.getSize(new THREE.Vector3());

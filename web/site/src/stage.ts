@@ -4,11 +4,10 @@ import * as THREE from 'three';
 import {JOINT_FLOATS} from '../../src/index.js';
 import type {Hand} from '../../src/index.js';
 
-/** From joint to joint: what of a hand keeps light off. */
+/** From joint to joint: what of a hand keeps light off. Not the wrist, which is drawn fading. */
 const BONES = [
-  [1, 2], [2, 3], [3, 4], [4, 5], [1, 6], [6, 7], [7, 8], [8, 9], [9, 10], [1, 11], [11, 12],
-  [12, 13], [13, 14], [14, 15], [1, 16], [16, 17], [17, 18], [18, 19], [19, 20], [1, 21], [21, 22],
-  [22, 23], [23, 24], [24, 25],
+  [2, 3], [3, 4], [4, 5], [6, 7], [7, 8], [8, 9], [9, 10], [11, 12], [12, 13], [13, 14], [14, 15],
+  [16, 17], [17, 18], [18, 19], [19, 20], [21, 22], [22, 23], [23, 24], [24, 25],
 ];
 const TYPICAL_RADIUS_M = 0.011;
 
@@ -77,6 +76,7 @@ export class Stage {
   readonly floor: THREE.Mesh;
   view: View = {target: [0, 0.3, 0], distance: 1.5, around: 0.3, up: 0.5};
   private readonly renderer: THREE.WebGLRenderer;
+  private readonly haze = new THREE.Fog(BACKGROUND);
   private readonly key = new THREE.DirectionalLight('#fff4e6', 2.4);
   private readonly shown = {target: new THREE.Vector3(0, 0.3, 0), distance: 1.6, around: 0, up: 0.4};
 
@@ -87,7 +87,7 @@ export class Stage {
     this.renderer.toneMapping = THREE.AgXToneMapping;
     this.renderer.toneMappingExposure = 1.25;
     this.scene.background = BACKGROUND;
-    this.scene.fog = new THREE.Fog(BACKGROUND, 2.2, 5);
+    this.scene.fog = this.haze;
     this.scene.add(new THREE.HemisphereLight('#f4f3f2', '#a39a92', 1.7));
     const rim = new THREE.DirectionalLight('#dfe8ff', 0.9);
     rim.position.set(1.5, 1.2, -2);
@@ -118,7 +118,10 @@ export class Stage {
     }
     this.fit();
     // What is wide has to fit into a picture that is high.
-    const distance = shown.distance * Math.max(1, 1.05 / camera.aspect);
+    const distance = shown.distance * Math.max(1, 0.9 / camera.aspect);
+    // The floor goes over into the background.
+    this.haze.near = 1.25 * distance;
+    this.haze.far = 3.2 * distance;
     camera.position.set(Math.sin(shown.around) * Math.cos(shown.up), Math.sin(shown.up),
                         Math.cos(shown.around) * Math.cos(shown.up))
       .multiplyScalar(distance).add(shown.target);
