@@ -9,7 +9,7 @@
 #include "hand/step.h"
 #include "nade/flesh.h"
 #include "proxy/arrow_matrix.h"
-#include "proxy/inertia.h"
+#include "proxy/coupling.h"
 #include "support/sample_hand.h"
 
 // The derivatives that the solver is built on, against central differences, and its matrix against
@@ -110,16 +110,16 @@ TEST_P(PosedHandOf, JointMotionsAreTheDerivativesOfJoints) {
   }
 }
 
-/// Inertia is half of stiffness times the squares of the joints' ways from where they coast to.
-TEST_P(PosedHandOf, InertiaIsTheJointsSquares) {
+/// Half of stiffness times the squares of the joints' ways to their places.
+TEST_P(PosedHandOf, JointSpringsAreTheJointsSquares) {
   const Fixture hand(GetParam());
   const PosedHand posed = hand.at(HandFreedoms::Zero());
-  JointVectors coasted;
+  JointVectors places;
   for (std::size_t i = 0; i < kJointCount; ++i) {
-    coasted[i] = posed.hand.joints[i].position + 0.001 * Vec3(1.0, double(i % 3) - 1.0, -0.5);
+    places[i] = posed.hand.joints[i].position + 0.001 * Vec3(1.0, double(i % 3) - 1.0, -0.5);
   }
   Springs springs;
-  add_inertia(coasted, 300.0, posed, springs);
+  add_joint_springs(places, 300.0, posed, springs);
 
   Dense stiffness = Dense::Zero();
   HandFreedoms force = HandFreedoms::Zero();
@@ -127,7 +127,7 @@ TEST_P(PosedHandOf, InertiaIsTheJointsSquares) {
     for (const Vec3& axis : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY()), Vec3(Vec3::UnitZ())}) {
       const HandFreedoms row = dense_row(motion_along(posed, joint_point(i), axis));
       stiffness += 300.0 * row * row.transpose();
-      force += 300.0 * axis.dot(coasted[i] - posed.hand.joints[i].position) * row;
+      force += 300.0 * axis.dot(places[i] - posed.hand.joints[i].position) * row;
     }
   }
   EXPECT_LT((dense(springs.stiffness) - stiffness).norm(), 1e-6 * stiffness.norm());

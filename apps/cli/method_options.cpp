@@ -6,7 +6,6 @@
 
 #include "choice_option.h"
 #include "commands.h"
-#include "nade/io/hand_file.h"
 #include "number_list.h"
 #include "number_options.h"
 
@@ -162,13 +161,7 @@ std::optional<std::string> given_of(const MethodOptions& options) {
 }
 
 CorrectorOptions options_of(const MethodOptions& options) {
-  if (options.literal) return paper_literal();
-  CorrectorOptions corrector = options.corrector;
-  if (corrector.method != Method::nade) return corrector;
-  for (const Handedness side : {Handedness::left, Handedness::right}) {
-    corrector.flesh[index_of(side)] = find_flesh(side);
-  }
-  return corrector;
+  return options.literal ? paper_literal() : options.corrector;
 }
 
 std::string method_names() { return names_of(methods()); }

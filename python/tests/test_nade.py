@@ -719,9 +719,7 @@ class CommandLine(Folder):
         tracked, corrected = self.folder / "tracked.jsonl", self.folder / "corrected.jsonl"
         nade.write_recording(tracked, made)
         command = [PROGRAM, "correct", str(tracked), "-o", str(corrected), "--object", name]
-        # Without its hand files the program has the hand that is built into the library.
-        where = {**os.environ, "NADE_ASSETS": str(self.folder)}
-        subprocess.run(command, check=True, capture_output=True, env=where)
+        subprocess.run(command, check=True, capture_output=True)
         wanted = nade.read_recording(corrected)
         found = nade.correct_recording(made, surface, placement=placed)
         for side in ("left", "right"):

@@ -26,7 +26,6 @@ ComparedMethod corrector_method(std::string name, Method method,
             options.method = method;
             options.tuning = tuning;
             options.hand_length_m = context.hand_scale * context.flesh->hand_length_m;
-            options.flesh[index_of(context.side)] = context.flesh;
             const auto corrector = std::make_shared<HandCorrector>(options);
             return [corrector](const HandPose& tracked, const Object& object,
                                std::int64_t time_ns) -> CorrectedHand {

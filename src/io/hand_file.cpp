@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "gltf_accessor.h"
-#include "nade/io/assets.h"
 
 namespace nade {
 namespace {
@@ -376,13 +375,6 @@ Result<HandMesh> load_hand_mesh(const std::string& path, Handedness side) {
   }
   complete_normals(mesh);
   return mesh;
-}
-
-std::shared_ptr<const HandFlesh> find_flesh(Handedness side) {
-  const Result<std::string> path = find_asset(fmt::format("hands/{}.glb", name_of(side)));
-  if (!path) return nullptr;
-  const Result<HandMesh> mesh = load_hand_mesh(*path, side);
-  return mesh ? std::make_shared<const HandFlesh>(measure_flesh(*mesh)) : nullptr;
 }
 
 }  // namespace nade

@@ -31,11 +31,48 @@ void limit_back_bend(HandModel& model) noexcept {
   }
 }
 
-void add_coupling(const ProxyTuning& tuning, const Correction& now, const Vec3& lag,
-                  double firmness, Springs& springs) noexcept {
-  HandFreedoms stiffness;
-  stiffness.head<3>().setConstant(tuning.shift_stiffness);
-  stiffness.segment<3>(3).setConstant(tuning.turn_stiffness);
+void add_joint_springs(const JointVectors& places, double stiffness, const PosedHand& posed,
+                       Springs& springs) noexcept {
+  // Every joint's spring is as stiff in every direction, so most of the products are sums of cross
+  // products: a shift of the wrist meets every joint alike, a turn w takes one at r along w x r.
+  Vec3 sum = Vec3::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    const JointMotion motion = motion_of(posed, i);
+    const Vec3& reach = motion.reach;
+    const Vec3 force = stiffness * (places[i] - posed.hand.joints[i].position);
+    sum += reach;
+    squares += reach * reach.transpose();
+    springs.force.head<3>() += force;
+    springs.force.segment<3>(3) += reach.cross(force);
+    const std::array<Vec3, kDigitFreedoms>& bends = motion.with_bend;
+    for (std::size_t f = 0; f < motion.bends; ++f) {
+      const auto column = static_cast<Eigen::Index>(f);
+      springs.force[first_freedom(motion.digit) + column] += bends[f].dot(force);
+      auto coupling = springs.stiffness.coupling[motion.digit].col(column);
+      coupling.head<3>() += stiffness * bends[f];
+      coupling.tail<3>() += stiffness * reach.cross(bends[f]);
+      for (std::size_t g = 0; g <= f; ++g) {
+        const auto row = static_cast<Eigen::Index>(g);
+        const double product = stiffness * bends[g].dot(bends[f]);
+        springs.stiffness.digit[motion.digit](row, column) += product;
+        if (g != f) springs.stiffness.digit[motion.digit](column, row) += product;
+      }
+    }
+  }
+  Eigen::Matrix<double, 6, 6>& wrist = springs.stiffness.wrist;
+  Eigen::Matrix3d crossed;
+  crossed << 0.0, sum.z(), -sum.y(), -sum.z(), 0.0, sum.x(), sum.y(), -sum.x(), 0.0;
+  wrist.topLeftCorner<3, 3>().diagonal().array() += stiffness * kJointCount;
+  wrist.topRightCorner<3, 3>() += stiffness * crossed;
+  wrist.bottomLeftCorner<3, 3>() += stiffness * crossed.transpose();
+  wrist.bottomRightCorner<3, 3>() +=
+      stiffness * (squares.trace() * Eigen::Matrix3d::Identity() - squares);
+}
+
+void add_bend_springs(const ProxyTuning& tuning, const Correction& now, double firmness,
+                      Springs& springs) noexcept {
+  HandFreedoms stiffness = HandFreedoms::Zero();
   for (std::size_t d = 0; d < kDigitCount; ++d) {
     auto digit = stiffness.segment<4>(first_freedom(d));
     if (digit_at(d) == Digit::thumb) {
@@ -45,9 +82,7 @@ void add_coupling(const ProxyTuning& tuning, const Correction& now, const Vec3& 
           tuning.finger_stiffness, tuning.finger_stiffness;
     }
   }
-  HandFreedoms away = step_between({}, now);
-  away.head<3>() -= lag;
-  springs.add(firmness * stiffness, -away);
+  springs.add(firmness * stiffness, -step_between({}, now));
 }
 
 void add_seat(const ProxyTuning& tuning, const Correction& now, const Pose& tracked_palm,
@@ -69,7 +104,7 @@ void add_seat(const ProxyTuning& tuning, const Correction& now, const Pose& trac
 void add_slide(const ProxyTuning& tuning, const Vec3& normal, const Vec3& shifted, double seconds,
                Springs& springs) noexcept {
   const Eigen::Matrix3d along = Eigen::Matrix3d::Identity() - normal * normal.transpose();
-  const Eigen::Matrix3d damper = tuning.shift_stiffness * tuning.slide_time_s / seconds * along;
+  const Eigen::Matrix3d damper = tuning.place_stiffness * tuning.slide_time_s / seconds * along;
   springs.stiffness.wrist.topLeftCorner<3, 3>() += damper;
   springs.force.head<3>() -= damper * shifted;
 }

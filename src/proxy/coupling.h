@@ -3,6 +3,7 @@
 #include "contact_finder.h"
 #include "hand/posed_hand.h"
 #include "solver.h"
+#include "state.h"
 #include "tuning.h"
 
 namespace nade {
@@ -13,10 +14,13 @@ namespace nade {
 /// person's own.
 void limit_back_bend(HandModel& model) noexcept;
 
-/// Springs from the correction `now` to none, `firmness` times as stiff as tuned, but for `lag`, by
-/// which friction holds back the palm.
-void add_coupling(const ProxyTuning& tuning, const Correction& now, const Vec3& lag,
-                  double firmness, Springs& springs) noexcept;
+/// Springs as stiff as that, 1/m^2, from every joint of `posed` to its place.
+void add_joint_springs(const JointVectors& places, double stiffness, const PosedHand& posed,
+                       Springs& springs) noexcept;
+
+/// Springs from the bends of the correction `now` to none, `firmness` times as stiff as tuned.
+void add_bend_springs(const ProxyTuning& tuning, const Correction& now, double firmness,
+                      Springs& springs) noexcept;
 
 /// A palm that is pressed, and about parallel to what it is pressed to, keeps its attitude: a
 /// spring against turns about axes in the surface.

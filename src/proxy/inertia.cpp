@@ -36,45 +36,6 @@ JointVectors coasted_joints(const ProxyTuning& tuning, const ProxyState& state,
   return coasted;
 }
 
-void add_inertia(const JointVectors& coasted, double stiffness, const PosedHand& posed,
-                 Springs& springs) noexcept {
-  // Every joint's spring is as stiff in every direction, so most of the products are sums of cross
-  // products: a shift of the wrist meets every joint alike, a turn w takes one at r along w x r.
-  Vec3 sum = Vec3::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 0; i < kJointCount; ++i) {
-    const JointMotion motion = motion_of(posed, i);
-    const Vec3& reach = motion.reach;
-    const Vec3 force = stiffness * (coasted[i] - posed.hand.joints[i].position);
-    sum += reach;
-    squares += reach * reach.transpose();
-    springs.force.head<3>() += force;
-    springs.force.segment<3>(3) += reach.cross(force);
-    const std::array<Vec3, kDigitFreedoms>& bends = motion.with_bend;
-    for (std::size_t f = 0; f < motion.bends; ++f) {
-      const auto column = static_cast<Eigen::Index>(f);
-      springs.force[first_freedom(motion.digit) + column] += bends[f].dot(force);
-      auto coupling = springs.stiffness.coupling[motion.digit].col(column);
-      coupling.head<3>() += stiffness * bends[f];
-      coupling.tail<3>() += stiffness * reach.cross(bends[f]);
-      for (std::size_t g = 0; g <= f; ++g) {
-        const auto row = static_cast<Eigen::Index>(g);
-        const double product = stiffness * bends[g].dot(bends[f]);
-        springs.stiffness.digit[motion.digit](row, column) += product;
-        if (g != f) springs.stiffness.digit[motion.digit](column, row) += product;
-      }
-    }
-  }
-  Eigen::Matrix<double, 6, 6>& wrist = springs.stiffness.wrist;
-  Eigen::Matrix3d crossed;
-  crossed << 0.0, sum.z(), -sum.y(), -sum.z(), 0.0, sum.x(), sum.y(), -sum.x(), 0.0;
-  wrist.topLeftCorner<3, 3>().diagonal().array() += stiffness * kJointCount;
-  wrist.topRightCorner<3, 3>() += stiffness * crossed;
-  wrist.bottomLeftCorner<3, 3>() += stiffness * crossed.transpose();
-  wrist.bottomRightCorner<3, 3>() +=
-      stiffness * (squares.trace() * Eigen::Matrix3d::Identity() - squares);
-}
-
 bool hold_back(const HandPose& last, const HandPose& next, double most_m, const PosedHand& posed,
                const HandFreedoms& step, std::vector<ContactTerm>& terms) noexcept {
   const auto way_of = [&](std::size_t joint) -> Vec3 {

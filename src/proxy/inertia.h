@@ -17,10 +17,6 @@ namespace nade {
                                           const HandPose& tracked, const Vec3& moved,
                                           double seconds) noexcept;
 
-/// Springs as stiff as that, 1/m^2, from every joint of `posed` to where it would coast to.
-void add_inertia(const JointVectors& coasted, double stiffness, const PosedHand& posed,
-                 Springs& springs) noexcept;
-
 /// Adds terms that hold back what a step would take farther from the last frame's hand than
 /// `most_m`: the wrist, and of each digit the joint that goes farthest. `next` is the hand after
 /// the step, `posed` before it. Says whether there are any.

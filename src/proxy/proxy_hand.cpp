@@ -292,12 +292,18 @@ double ProxyFrame::farthest_way() const {
 Springs ProxyFrame::springs_at(const PosedHand& posed) const {
   Springs springs;
   const double firmness = 1.0 + in_air() * (kFirmerInAir - 1.0);
-  add_coupling(tuning_, correction_, state_.touch.drawn_lag, firmness, springs);
+  const double held = firmness * tuning_.place_stiffness / kJointCount;
+  const double inert = found_anew_ ? 0.0 : tuning_.joint_mass / (seconds_ * seconds_);
+  JointVectors places;
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    places[i] = model_.tracked.joints[i].position + state_.touch.drawn_lag;
+    if (!found_anew_) places[i] += inert / (held + inert) * (coasted_[i] - places[i]);
+  }
+  add_joint_springs(places, held + inert, posed, springs);
+  add_bend_springs(tuning_, correction_, firmness, springs);
   add_seat(tuning_, correction_, model_.tracked[Joint::palm], found_.palm, springs);
   springs.force += found_.even_pull;
-  if (found_anew_) return springs;
-  add_inertia(coasted_, tuning_.joint_mass / (seconds_ * seconds_), posed, springs);
-  if (!normal_.isZero()) {
+  if (!found_anew_ && !normal_.isZero()) {
     const Vec3 shifted =
         correction_.palm.shift - state_.last->correction.palm.shift - lag_ - catch_up_;
     add_slide(tuning_, normal_, shifted, seconds_, springs);

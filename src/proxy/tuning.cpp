@@ -6,14 +6,15 @@ namespace nade {
 
 std::span<const TuningInfo> tuning_table() {
   static constexpr std::array kTable{
-      TuningInfo{"shift_stiffness", "1/m^2", 1000.0, 10000.0,
-                 "holds the drawn hand on to the tracked place", &ProxyTuning::shift_stiffness},
-      TuningInfo{"turn_stiffness", "1/rad^2", 0.0, 30.0,
-                 "the wrist turns before the palm is lifted off", &ProxyTuning::turn_stiffness},
+      TuningInfo{
+          "place_stiffness", "1/m^2", 1000.0, 30000.0,
+          "holds the drawn joints, which share it, on to the tracked ones: fingers hang over "
+          "what holds up the palm",
+          &ProxyTuning::place_stiffness},
       TuningInfo{"knuckle_stiffness", "1/rad^2", 0.0, 10.0,
                  "a finger gives way at its knuckle first; the thumb lies down beside the hand",
                  &ProxyTuning::knuckle_stiffness},
-      TuningInfo{"finger_stiffness", "1/rad^2", 0.0, 20.0,
+      TuningInfo{"finger_stiffness", "1/rad^2", 0.0, 40.0,
                  "a finger keeps its bend, and twice as firmly its place beside the others",
                  &ProxyTuning::finger_stiffness},
       TuningInfo{"seat_stiffness", "1/rad^2", 0.0, 400.0,

@@ -10,10 +10,9 @@ namespace nade {
 /// in which a turn of one radian about a joint of stiffness 1 costs one half. Each member's unit,
 /// range and reason are in `tuning_table`.
 struct ProxyTuning {
-  double shift_stiffness = 3000.0;
-  double turn_stiffness = 7.0;
+  double place_stiffness = 10000.0;
   double knuckle_stiffness = 2.0;
-  double finger_stiffness = 5.0;
+  double finger_stiffness = 10.0;
   double seat_stiffness = 100.0;
   double joint_mass = 2.0;
   double offset_time_s = 0.06;

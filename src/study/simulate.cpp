@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "nade/eval/synth.h"
-#include "nade/io/hand_file.h"
 #include "nade/study/run.h"
 
 namespace nade::study {
@@ -171,7 +170,6 @@ class InventedPerson {
     if (!synth) return synth.error();
     CorrectorOptions corrector_options;
     corrector_options.method = scene.method;
-    if (scene.method == Method::nade) corrector_options.flesh[1] = find_flesh(Handedness::right);
     HandCorrector corrector(corrector_options);
     const Object object = motions_->object(scene.object).placed();
     const std::int64_t begin_ns = now_ns_;

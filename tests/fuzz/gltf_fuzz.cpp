@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "input_file.h"
+#include "nade/flesh.h"
 #include "nade/hand_mesh.h"
 #include "nade/io/animated_mesh.h"
 #include "nade/io/hand_file.h"

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <memory>
 #include <string>
 
-#include "nade/flesh.h"
 #include "nade/hand_mesh.h"
 #include "nade/status.h"
 
@@ -16,9 +14,5 @@ namespace nade {
 /// as the middle metacarpal, any other as its nearest ancestor that is a joint of the hand.
 /// Missing normals are computed. The error names the file and what was expected.
 [[nodiscard]] Result<HandMesh> load_hand_mesh(const std::string& path, Handedness side);
-
-/// What can touch of the hand that comes with the product, for CorrectorOptions; empty, and so
-/// the built-in one, where its file is not there.
-[[nodiscard]] std::shared_ptr<const HandFlesh> find_flesh(Handedness side);
 
 }  // namespace nade
