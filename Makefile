@@ -2,7 +2,7 @@
 # neither installed nor fetched again.
 .NOTPARALLEL:
 .DEFAULT_GOAL := help
-.PHONY: help demo test check build bench asan fuzz tsan test-headset tidy format format-check python web web-test web-serve install install-all clean setup setup-web
+.PHONY: help demo test check check-scale build bench asan fuzz tsan test-headset tidy format format-check python web web-test web-serve install install-all clean setup setup-web
 
 PREFIX ?= /usr/local
 SECONDS ?= 60
@@ -18,8 +18,12 @@ demo: setup ## Strokes on three objects, corrected and measured: a table under b
 test: setup ## Style, the optimised build, and all its tests
 	@scripts/test
 
-check: setup ## What takes longer: clang-tidy, sanitizers, and Debian 13 with g++ 14 and a headset (root)
+check: setup ## What takes longer: clang-tidy, sanitizers, a Slurm cluster, and Debian 13 with g++ 14 and a headset (root)
 	@scripts/check
+
+check-scale: setup ## workflows/snakemake on this machine and on a Slurm cluster on it (root); 680 MB of packages
+	@scripts/build release nade_cli
+	@scripts/check_scale
 
 build: setup ## The library and the command line, optimised, in build/release
 	@scripts/build release

@@ -119,6 +119,15 @@ TEST_F(CliBatch, NothingIsReplacedUnasked) {
   expect_failure(nade("convert nothing -o out"), "nothing: expected recordings");
 }
 
+TEST_F(CliBatch, OneRecordingGoesIntoAFolderThatIsThereOrNamedAsOne) {
+  make_stroke("take.jsonl");
+  std::filesystem::create_directory(path("there"));
+  EXPECT_EQ(nade("convert take.jsonl -o there").status, 0);
+  EXPECT_TRUE(std::filesystem::exists(path("there/take.jsonl.gz")));
+  EXPECT_EQ(nade("correct take.jsonl -o new/ --object plane").status, 0);
+  EXPECT_TRUE(std::filesystem::exists(path("new/take.jsonl.gz")));
+}
+
 TEST_F(CliBatch, ADataSetIsMeasuredAsAWhole) {
   make_folder();
   ASSERT_EQ(nade("correct in -o out --object sphere").status, 0);

@@ -22,7 +22,7 @@ struct BatchOptions {
   std::string ending = ".jsonl.gz";  ///< of what is written into a folder
   std::size_t jobs = 0;              ///< recordings worked on at a time; 0: as many as cores
 
-  /// Several inputs, or a folder.
+  /// Several inputs, or a folder as input or output.
   [[nodiscard]] bool many() const;
 };
 
@@ -33,7 +33,8 @@ void add_jobs_option(CLI::App& command, std::size_t& jobs);
 [[nodiscard]] std::size_t cores();
 
 /// All recordings of a folder and its folders by their names' endings, in the order of their
-/// paths, against it; hidden ones are left out. The error names the folder.
+/// paths, against it; hidden ones, pipes and devices are left out. A folder among them that may not
+/// be entered is one, too, with "/" behind its name. The error names the folder.
 [[nodiscard]] Result<std::vector<std::string>> recordings_in(const std::string& folder);
 
 /// A recording's name without the endings that say how it is written: "a/b" of "a/b.csv.gz".

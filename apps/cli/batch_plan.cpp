@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -38,10 +39,21 @@ bool is_folder(const std::string& path) {
   return fs::is_directory(path, ignored);
 }
 
+/// Pipes, sockets and devices would be waited for. A link to nothing is none of these.
+bool is_file(const fs::directory_entry& entry) {
+  std::error_code ignored;
+  return entry.is_regular_file(ignored) || !entry.exists(ignored);
+}
+
+bool is_shut(const fs::directory_entry& folder) {
+  return !folder.is_symlink() && ::access(folder.path().c_str(), R_OK | X_OK) != 0;
+}
+
 }  // namespace
 
 bool BatchOptions::many() const {
-  return inputs.size() > 1 || (inputs.size() == 1 && is_folder(inputs.front()));
+  return inputs.size() > 1 || output.ends_with('/') || is_folder(output) ||
+         (inputs.size() == 1 && is_folder(inputs.front()));
 }
 
 std::size_t cores() { return std::max(1U, std::thread::hardware_concurrency()); }
@@ -90,12 +102,16 @@ Result<std::vector<std::string>> recordings_in(const std::string& folder) {
   fs::recursive_directory_iterator entry(folder, failed);
   for (; !failed && entry != fs::recursive_directory_iterator(); entry.increment(failed)) {
     std::error_code ignored;
-    if (is_hidden(entry->path())) {
-      if (entry->is_directory(ignored)) entry.disable_recursion_pending();
-      continue;
+    const bool hidden = is_hidden(entry->path());
+    const bool is_directory = entry->is_directory(ignored);
+    const std::string name = entry->path().lexically_relative(folder).string();
+    if (is_directory && (hidden || is_shut(*entry))) {
+      entry.disable_recursion_pending();
+      // To be read as if it were a recording, which says why it cannot be.
+      if (!hidden) found.push_back(name + "/");
+    } else if (!hidden && !is_directory && is_recording_name(name) && is_file(*entry)) {
+      found.push_back(name);
     }
-    if (entry->is_directory(ignored) || !is_recording_name(entry->path())) continue;
-    found.push_back(entry->path().lexically_relative(folder).string());
   }
   if (failed) {
     return Error{ErrorCode::not_found,
