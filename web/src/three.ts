@@ -4,12 +4,12 @@ import type {Mesh, Object3D, WebXRSpaceEventMap, XRHandSpace, XRJointSpace} from
 import type {Corrector, Result} from './corrector.js';
 import {badArgument} from './error.js';
 import type {Nade} from './index.js';
+import {fillPalm} from './joints.js';
 import {HAND_FLOATS, JOINT_FLOATS} from './layout.js';
 import type {Scene} from './scene.js';
 import type {MeshSurface, Surface} from './surface.js';
 import {JOINT_NAMES} from './types.js';
 import type {CorrectorOptions, Feel, Hand, Placement, Side} from './types.js';
-import {fillPalm} from './webxr.js';
 
 const WRIST = 1;
 
