@@ -1,13 +1,13 @@
 import assert from 'node:assert/strict';
-import {execFileSync} from 'node:child_process';
-import {mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
-import {tmpdir} from 'node:os';
+import {readFileSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {fileURLToPath} from 'node:url';
 import test from 'node:test';
 import {brotliCompressSync, gzipSync} from 'node:zlib';
 
 import {buildSync} from 'esbuild';
+
+import {freshProject, moduleOf} from './project.js';
 
 const WASM_BYTES = 170e3;
 const CORE_BYTES = 12e3;
@@ -25,14 +25,8 @@ test('size: nade.wasm by brotli, the core’s JavaScript by gzip', (t) => {
 });
 
 test('packed, installed into an empty project, checked by tsc, bundled and run', () => {
-  const project = mkdtempSync(join(tmpdir(), 'nade-project-'));
-  const run = (command, ...values) =>
-    execFileSync(command, values, {cwd: project, encoding: 'utf8'});
+  const {project, run, remove} = freshProject();
   try {
-    const packed = execFileSync('npm', ['pack', '--silent', '--pack-destination', project],
-                                {cwd: folder, encoding: 'utf8'}).trim();
-    writeFileSync(join(project, 'package.json'), '{"name":"fresh","type":"module"}');
-    run('npm', 'install', '--silent', '--offline', '--no-audit', `./${packed}`);
     writeFileSync(join(project, 'use.ts'), `
       import {load, type Result} from 'nade';
       import {readRecording} from 'nade/recording';
@@ -45,11 +39,10 @@ test('packed, installed into an empty project, checked by tsc, bundled and run',
     `);
     writeFileSync(join(project, 'tsconfig.json'), JSON.stringify({compilerOptions: {
       strict: true, module: 'nodenext', target: 'es2022', skipLibCheck: false, types: []}}));
-    run(join(folder, 'node_modules/.bin/tsc'));
+    run(moduleOf('.bin/tsc'));
     assert.equal(run('node', 'use.js'), 'free function\n');
-    run(join(folder, 'node_modules/.bin/esbuild'), 'use.js', '--bundle', '--format=esm',
-        '--outfile=bundle.js');
+    run(moduleOf('.bin/esbuild'), 'use.js', '--bundle', '--format=esm', '--outfile=bundle.js');
   } finally {
-    rmSync(project, {recursive: true});
+    remove();
   }
 });
