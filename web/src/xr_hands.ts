@@ -79,11 +79,15 @@ export class XRHands {
     installed = this;
   }
 
-  /** Where the coordinates of objects are those of. Another one after a teleport, say. */
+  /** Where the coordinates of objects are those of; another one where the program moves its world. */
   get space(): XRReferenceSpace | XRReferenceSpaceType { return this.asked; }
   set space(space: XRReferenceSpace | XRReferenceSpaceType) {
     this.asked = space;
-    this.session = null;
+    if (typeof space === 'string') {
+      this.session = null;  // starts anew
+    } else if (this.session) {
+      this.own = space;
+    }
   }
 
   /** Status, contacts and joints of the last frame, in `space`; null where it was not tracked. */

@@ -1,6 +1,7 @@
 // A fresh project into which the packed package is installed, as a user does it, and a browser.
 import {execFileSync, spawn} from 'node:child_process';
 import {mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
+import {rm} from 'node:fs/promises';
 import {createServer} from 'node:http';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
@@ -68,7 +69,7 @@ export async function runInBrowser(program, project, page) {
           '--headless=new', '--no-sandbox', '--use-angle=swiftshader',
           '--enable-unsafe-swiftshader', '--disable-gpu-sandbox', '--no-first-run',
           `--user-data-dir=${profile}`, `http://127.0.0.1:${server.address().port}/`,
-        ], {stdio: 'ignore'});
+        ], {stdio: 'ignore', detached: true});
         running.on('exit', (code) => fail(new Error(`${program}: stopped with ${code}`)));
         setTimeout(() => fail(new Error(`${program}: no result in ${LONGEST_MS / 1e3} s`)),
                    LONGEST_MS).unref();
@@ -76,10 +77,10 @@ export async function runInBrowser(program, project, page) {
     });
   } finally {
     const gone = running && new Promise((done) => running.on('exit', done));
-    running?.kill();
+    if (running?.exitCode === null) process.kill(-running.pid, 'SIGKILL');  // and its children
     await gone;
     server?.closeAllConnections();
     server?.close();
-    rmSync(profile, {recursive: true, force: true, maxRetries: 5, retryDelay: 200});
+    await rm(profile, {recursive: true, force: true, maxRetries: 5, retryDelay: 200});
   }
 }

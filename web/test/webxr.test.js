@@ -176,6 +176,12 @@ test('objects may stand in another space, and nothing may be near', async () => 
     await frame(height);
     const raise = await press(height) - low;
     assert.ok(Math.abs(raise - 0.02) < 2e-3, `${raise} m`);
+    // A world that is moved in every frame, as by a thumbstick.
+    for (let i = 0; i < 30; ++i) {
+      hands.space = offsetSpace({x: 0.01 * i, y: 0, z: 0}, {x: 0, y: 0, z: 0, w: 1});
+      await frame(height);
+      assert.equal(hands.result('right').status, 'corrected');
+    }
     hands.touching = null;
     for (let i = 0; i < 300; ++i) await frame(height);
     await frame((now, {right}) => assert.equal(
