@@ -1,8 +1,8 @@
 import type {Corrector, Result} from './corrector.js';
 import {badArgument} from './error.js';
-import type {Nade} from './index.js';
 import {jointMatrix, readJoints} from './joints.js';
 import {HAND_FLOATS, JOINT_FLOATS} from './layout.js';
+import type {Nade} from './nade.js';
 import type {Scene} from './scene.js';
 import type {Surface} from './surface.js';
 import {JOINT_NAMES} from './types.js';

@@ -1,5 +1,5 @@
 import assert from 'node:assert/strict';
-import {readFileSync, writeFileSync} from 'node:fs';
+import {copyFileSync, mkdirSync, readdirSync, readFileSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {fileURLToPath} from 'node:url';
 import test from 'node:test';
@@ -42,6 +42,33 @@ test('packed, installed into an empty project, checked by tsc, bundled and run',
     run(moduleOf('.bin/tsc'));
     assert.equal(run('node', 'use.js'), 'free function\n');
     run(moduleOf('.bin/esbuild'), 'use.js', '--bundle', '--format=esm', '--outfile=bundle.js');
+  } finally {
+    remove();
+  }
+});
+
+test('bundled: nade.wasm beside the script, or within it', () => {
+  const {project, run, remove} = freshProject();
+  const bundle = (name, module) => {
+    writeFileSync(join(project, `${name}.js`), `
+      import {load} from '${module}';
+      const nade = await load();
+      const tracked = nade.restHand('right');
+      console.log(nade.corrector().update('right', tracked, nade.plane(), 0).status);`);
+    mkdirSync(join(project, name));
+    run(moduleOf('.bin/esbuild'), `${name}.js`, '--bundle', '--format=esm', '--log-level=warning',
+        `--outfile=${name}/main.mjs`);
+    return join(project, name, 'main.mjs');
+  };
+  try {
+    const beside = bundle('beside', 'nade');
+    copyFileSync(join(project, 'node_modules/nade/dist/nade.wasm'),
+                 join(project, 'beside/nade.wasm'));
+    assert.equal(run('node', beside), 'corrected\n');
+    const inline = bundle('inline', 'nade/inline');
+    assert.deepEqual(readdirSync(join(project, 'inline')), ['main.mjs']);
+    assert.equal(run('node', inline), 'corrected\n');
+    assert.ok(!readFileSync(inline, 'utf8').includes('import.meta'));
   } finally {
     remove();
   }
