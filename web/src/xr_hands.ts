@@ -51,6 +51,7 @@ let installed: XRHands | null = null;
 export class XRHands {
   touching: Scene | Surface | null;
   private readonly native: Reader;
+  private readonly changes = new Set<unknown>();
   private readonly nativeRequest: XRSession['requestAnimationFrame'];
   private readonly hands: Record<Side, TrackedHand>;
   private readonly owners = new WeakMap<XRSpace, {hand: XRHand; side: Side; joint: number}>();
@@ -102,9 +103,21 @@ export class XRHands {
   uninstall(): void {
     if (installed !== this) return;
     installed = null;
-    Object.assign(XRFrame.prototype, this.native);
-    XRSession.prototype.requestAnimationFrame = this.nativeRequest;
+    this.asking = true;  // for good, where somebody has changed the same functions since
+    this.restore(XRFrame.prototype, this.native);
+    this.restore(XRSession.prototype, {requestAnimationFrame: this.nativeRequest});
     for (const {corrector} of Object.values(this.hands)) corrector.destroy();
+  }
+
+  private restore(prototype: object, native: object): void {
+    for (const [name, method] of Object.entries(native)) {
+      if (this.changes.has(Reflect.get(prototype, name))) Reflect.set(prototype, name, method);
+    }
+  }
+
+  private change(prototype: object, name: string, method: unknown): void {
+    this.changes.add(method);
+    Reflect.set(prototype, name, method);
   }
 
   private install(): void {
@@ -132,10 +145,10 @@ export class XRHands {
     };
     // What a browser lacks it goes on lacking: engines look for that.
     for (const name of Object.keys(reader) as (keyof Reader)[]) {
-      if (this.native[name]) Object.assign(XRFrame.prototype, {[name]: reader[name]});
+      if (this.native[name]) this.change(XRFrame.prototype, name, reader[name]);
     }
     const {nativeRequest} = this;
-    XRSession.prototype.requestAnimationFrame = function(callback) {
+    const request: typeof nativeRequest = function(this: XRSession, callback) {
       return nativeRequest.call(this, (time, frame) => {
         hands.now = {frame, timeMs: time};
         try {
@@ -145,6 +158,7 @@ export class XRHands {
         }
       });
     };
+    this.change(XRSession.prototype, 'requestAnimationFrame', request);
   }
 
   /** What is tracked. An emulated frame may ask itself in turn. */
@@ -202,7 +216,9 @@ export class XRHands {
 
   private ownerOf(session: XRSession, space: XRSpace) {
     if (!this.owners.has(space)) {
-      for (const {hand, handedness} of session.inputSources) {
+      // Beside controllers that are held hands are in a list of their own.
+      const {trackedSources = []} = session as {trackedSources?: Iterable<XRInputSource>};
+      for (const {hand, handedness} of [...session.inputSources, ...trackedSources]) {
         if (!hand || handedness === 'none') continue;
         JOINT_NAMES.forEach((name, joint) => {
           const own = hand.get(name as XRHandJoint);

@@ -106,11 +106,16 @@ test('a frame is corrected once, however often it is asked for', async (t) => {
       () => WEBXR_NAMES.map((name) => positionOf(now.getJointPose(right.get(name), floor))));
     await press(twice);
     reads = 0;
-    const start = process.hrtime.bigint();
     const [first, second] = await frame(twice);
-    t.diagnostic(`${(Number(process.hrtime.bigint() - start) / 1e3).toFixed(0)} µs for 50 joints`);
     assert.deepEqual(first, second);
     assert.equal(reads, 3 * WEBXR_NAMES.length);
+    const times = [];
+    for (let i = 0; i < 20; ++i) {
+      const start = process.uptime();
+      await frame(twice);
+      times.push(process.uptime() - start);
+    }
+    t.diagnostic(`${(1e6 * Math.min(...times)).toFixed(0)} µs a frame that asks for 50 joints`);
   } finally {
     hands.uninstall();
     XRFrame.prototype.getJointPose = getJointPose;
@@ -202,6 +207,24 @@ test('installed once, and uninstalled without a trace', () => {
     assert.equal(XRFrame.prototype[name], before[name].value);
   }
   assert.equal(XRSession.prototype.requestAnimationFrame, requestAnimationFrame);
+});
+
+test('somebody who changes XRFrame later is left in place', async () => {
+  const hands = correctXRHands(nade, {touching: table});
+  const {getPose} = XRFrame.prototype;
+  let asked = 0;
+  const theirs = function(...given) {
+    ++asked;
+    return getPose.apply(this, given);
+  };
+  XRFrame.prototype.getPose = theirs;
+  hands.uninstall();
+  assert.equal(XRFrame.prototype.getPose, theirs);
+  await press((now, {right}) => {
+    asked = 0;
+    assert.ok(now.getPose(right.get(KNUCKLE), floor).transform.position.y < 0);
+    assert.equal(asked, 1);
+  });
 });
 
 test('a session without the space of the objects is told, once', async () => {
