@@ -9,7 +9,7 @@ import {fileURLToPath} from 'node:url';
 
 const folder = fileURLToPath(new URL('..', import.meta.url));
 const BROWSERS = ['chromium', 'chromium-browser', 'google-chrome'];
-const LONGEST_MS = 30e3;
+const LONGEST_MS = 60e3;
 
 /** The project's folder, and `run` for commands in it. `others` are of this package's modules. */
 export function freshProject(others = []) {
@@ -39,7 +39,7 @@ export function browser() {
 }
 
 /**
- * Runs a script, or a page, of a project in a browser without a display, until it sends its result:
+ * Runs a page of a project in a browser without a display, until it sends its result:
  * `fetch('/result', {method: 'POST', body: JSON.stringify(…)})`.
  */
 export async function runInBrowser(program, project, page) {
