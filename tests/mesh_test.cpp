@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <iostream>
+#include <numbers>
 #include <set>
 
 #include "nade/io/mesh_file.h"
@@ -188,6 +189,25 @@ TEST(Mesh, CreasesStaySharp) {
     SurfaceHint hint;
     EXPECT_GT(mesh->closest_point(query, 1.0, hint)->normal.y(), 1.0 - 1e-8);
     EXPECT_GT(mesh->first_hit({query, -Vec3::UnitY()})->normal.y(), 1.0 - 1e-8);
+  }
+}
+
+TEST(Mesh, TipOfThinTrianglesPointsUp) {
+  for (const std::uint32_t count : {12U, 200U, 3000U}) {
+    TriangleSoup cone;
+    cone.vertices = {{0.0F, 0.1F, 0.0F}, {0.0F, 0.0F, 0.0F}};
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const float angle =
+          2.0F * std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(count);
+      cone.vertices.emplace_back(0.3F * std::sin(angle), 0.0F, 0.3F * std::cos(angle));
+      const std::uint32_t next = 2 + (i + 1) % count;
+      cone.triangles.push_back({0, 2 + i, next});
+      cone.triangles.push_back({1, next, 2 + i});
+    }
+    SurfaceHint hint;
+    const auto point = build(cone)->closest_point({0.0, 0.2, 0.0}, kAnywhere, hint);
+    EXPECT_NEAR(point->normal.y(), 1.0, 1e-6) << count;
+    EXPECT_NEAR(point->signed_distance, 0.1, 1e-6) << count;
   }
 }
 

@@ -313,8 +313,7 @@ class Corrector(Owner):
                         times_ns[i],
                         write + i * result_bytes,
                     )
-                    if status != 0:
-                        check(status)
+                    check(status)
                 return
             update = library.nade_corrector_update
             touched = None if surface is None else handle_of(surface)
@@ -331,8 +330,7 @@ class Corrector(Owner):
                     times_ns[i],
                     write + i * result_bytes,
                 )
-                if status != 0:
-                    check(status)
+                check(status)
 
 
 def correct(

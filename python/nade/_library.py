@@ -9,6 +9,7 @@ from __future__ import annotations
 import ctypes
 import enum
 import pathlib
+import threading
 import weakref
 from ctypes import POINTER, c_char_p, c_double, c_float, c_int32, c_int64, c_size_t
 from ctypes import c_uint32, c_uint64, c_void_p
@@ -134,6 +135,31 @@ class SurfacePoint(ctypes.Structure):
     ]
 
 
+class GroupMember(ctypes.Structure):
+    _fields_ = [("surface", c_void_p), ("placement", Placement)]
+
+
+ClosestPoint = ctypes.CFUNCTYPE(
+    c_int32, c_void_p, POINTER(c_double), c_double, POINTER(c_uint32), POINTER(SurfacePoint)
+)
+Shape = ctypes.CFUNCTYPE(c_uint64, c_void_p)
+Bounds = ctypes.CFUNCTYPE(c_int32, c_void_p, POINTER(c_double), POINTER(c_double))
+Release = ctypes.CFUNCTYPE(None, c_void_p)
+
+
+class SurfaceCallbacks(ctypes.Structure):
+    _fields_ = [
+        ("size", c_uint32),
+        ("reserved", c_uint32),
+        ("user", c_void_p),
+        ("closest_point", ClosestPoint),
+        ("first_hit", c_void_p),
+        ("shape", Shape),
+        ("bounds", Bounds),
+        ("release", Release),
+    ]
+
+
 class HandMesh(ctypes.Structure):
     _fields_ = [
         ("size", c_uint32),
@@ -167,6 +193,9 @@ STATUS_FUNCTIONS: dict[str, Sequence[Any]] = {
         POINTER(c_void_p),
     ),
     "nade_surface_create_mesh": (POINTER(Mesh), POINTER(MeshReport), POINTER(c_void_p)),
+    "nade_surface_create_custom": (POINTER(SurfaceCallbacks), POINTER(c_void_p)),
+    "nade_surface_create_group": (c_void_p, c_size_t, POINTER(c_void_p)),
+    "nade_surface_place_member": (c_void_p, c_size_t, c_void_p),
     "nade_surface_refit": (c_void_p, c_void_p, c_size_t),
     "nade_surface_closest_point": (
         c_void_p,
@@ -232,8 +261,15 @@ def _load() -> ctypes.CDLL:
 library = _load()
 
 
+#: What a function of the user's raised inside a call of the library, on each thread.
+raised = threading.local()
+
+
 def check(status: int) -> None:
     """Raises the error of the call that was just made on this thread, if it failed."""
+    error = raised.__dict__.pop("error", None)
+    if error is not None:
+        raise error
     if status == 0:
         return
     raise NadeError(status, library.nade_last_error().decode("utf-8", "replace"))

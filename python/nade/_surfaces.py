@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import ctypes
 import dataclasses
-from typing import Any, NamedTuple, Optional
+import itertools
+from typing import Any, Callable, NamedTuple, Optional, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -280,10 +281,123 @@ class Mesh(Surface):
     def refit(self, vertices: npt.ArrayLike) -> None:
         """New positions (V, 3) for the vertices that it was made of; its scale is applied.
 
-        0.1 ms for a thousand triangles. A scene that has the mesh is told by `Scene.deformed`.
+        0.02 ms for a thousand triangles. A scene that has the mesh is told by `Scene.deformed`.
         """
         corners = numbers("vertices", vertices, (None, 3), np.float32)
         check(library.nade_surface_refit(self._handle, corners.ctypes.data, len(corners)))
+
+
+class Group(Surface):
+    """Up to 255 surfaces as one, such as the parts of a thing.
+
+    `members` are surfaces, or pairs of a surface and where it stands in the group, by
+    `nade.placement`. For more, or where several move, a `Scene` is faster.
+    """
+
+    def __init__(self, members: Sequence[Union[Surface, tuple[Surface, npt.NDArray[Any]]]]) -> None:
+        made = (_library.GroupMember * len(members))()
+        for entry, member in zip(made, members):
+            surface, placed = member if isinstance(member, tuple) else (member, placement())
+            entry.surface = handle_of(surface)
+            one = placements(placed, None)
+            if one is None:
+                one = placement()
+            ctypes.memmove(ctypes.byref(entry.placement), one.ctypes.data, PLACEMENT.itemsize)
+        self._make("group", ctypes.addressof(made), len(members))
+
+    def place(self, index: int, placement: Optional[npt.NDArray[Any]]) -> None:
+        """Moves a member, counted from 0."""
+        placed = placements(placement, None)
+        address = None if placed is None else placed.ctypes.data
+        number = whole("index", index, 0, _MOST_ID)
+        check(library.nade_surface_place_member(self._handle, number, address))
+
+
+class Custom(Surface):
+    """A surface of your own, in its own frame, by functions.
+
+    `closest_point(query, max_distance)` gets a point (3,) and a distance, which may be infinite, and
+    gives the nearest point of the surface that is no farther: a `SurfacePoint`, or a tuple like
+    one; or None. `bounds()`, if given, is the low and the high corner of a box that all of the
+    surface is in: a scene then asks only where a hand is near. `shape()`, if given, is another
+    number whenever the surface has another shape. They are called hundreds of times a frame, so a
+    hand takes milliseconds. What they raise comes out of the call that asked.
+    """
+
+    def __init__(
+        self,
+        closest_point: Callable[..., Any],
+        bounds: Optional[Callable[[], Any]] = None,
+        shape: Optional[Callable[[], int]] = None,
+    ) -> None:
+        for name, function in (("bounds", bounds), ("shape", shape)):
+            if function is not None and not callable(function):
+                raise TypeError(f"{name}: expected a function, found {type(function).__name__}")
+        if not callable(closest_point):
+            found = type(closest_point).__name__
+            raise TypeError(f"closest_point: expected a function, found {found}")
+
+        def nearest(_: Any, query: Any, farthest: float, hint: Any, out: Any) -> int:
+            answer = closest_point(np.array(query[:3]), farthest)
+            if answer is None:
+                return 0
+            point, normal, distance = answer
+            out[0].point[:] = numbers("closest_point: point", point, (3,), np.float64).tolist()
+            out[0].normal[:] = numbers("closest_point: normal", normal, (3,), np.float64).tolist()
+            out[0].signed_distance = number("closest_point: signed distance", distance)
+            return 1
+
+        def box(_: Any, low: Any, high: Any) -> int:
+            assert bounds is not None
+            corners = numbers("bounds", bounds(), (2, 3), np.float64).tolist()
+            for axis in range(3):
+                low[axis], high[axis] = corners[0][axis], corners[1][axis]
+            return 1
+
+        def version(_: Any) -> int:
+            assert shape is not None
+            return whole("shape", shape(), 0, _MOST_ID)
+
+        key = next(_keys)
+        callbacks = _library.SurfaceCallbacks(
+            size=ctypes.sizeof(_library.SurfaceCallbacks),
+            user=key,
+            closest_point=_library.ClosestPoint(_told(nearest)),
+            release=_release,
+        )
+        if bounds is not None:
+            callbacks.bounds = _library.Bounds(_told(box))
+        if shape is not None:
+            callbacks.shape = _library.Shape(_told(version))
+        _kept[key] = callbacks
+        try:
+            self._make("custom", ctypes.byref(callbacks))
+        except BaseException:
+            del _kept[key]
+            raise
+
+
+#: The functions of custom surfaces, as long as the library may call them.
+_kept: dict[int, _library.SurfaceCallbacks] = {}
+_keys = itertools.count(1)
+
+
+@_library.Release
+def _release(key: int) -> None:
+    _kept.pop(key, None)
+
+
+def _told(function: Callable[..., int]) -> Callable[..., int]:
+    """The function; what it raises is kept for `check`, and counts as no answer."""
+
+    def call(*given: Any) -> int:
+        try:
+            return function(*given)
+        except BaseException as error:
+            _library.raised.error = error
+            return 0
+
+    return call
 
 
 def handle_of(surface: Any) -> int:

@@ -28,7 +28,7 @@ from typing import Any, Optional
 import numpy as np
 
 import nade
-from nade import _hands, _library
+from nade import _hands, _library, _surfaces
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("NADE_TEST_PROGRAM", "")
@@ -137,6 +137,8 @@ class Layout(Folder):
         "nade_mesh": _library.Mesh,
         "nade_mesh_report": _library.MeshReport,
         "nade_surface_point": _library.SurfacePoint,
+        "nade_group_member": _library.GroupMember,
+        "nade_surface_callbacks": _library.SurfaceCallbacks,
         "nade_hand_mesh": _library.HandMesh,
     }
     CONSTANTS = {
@@ -258,6 +260,64 @@ class Surfaces(unittest.TestCase):
         mesh = nade.Mesh(vertices, triangles)
         mesh.refit(vertices * 2)
         self.assertAlmostEqual(mesh.closest_point([0, 0.5, 0]).signed_distance, 0.1, places=6)
+
+    def test_group(self) -> None:
+        ball = nade.Sphere(0.05)
+        group = nade.Group([nade.Sphere(0.1), (ball, nade.placement([0, 0.2, 0]))])
+        self.assertAlmostEqual(group.closest_point([0, 1, 0]).point[1], 0.25, places=6)
+        group.place(1, nade.placement([0, 0.3, 0]))
+        self.assertAlmostEqual(group.closest_point([0, 1, 0]).point[1], 0.35, places=6)
+        group.place(1, None)
+        self.assertAlmostEqual(group.closest_point([0, 1, 0]).point[1], 0.1, places=6)
+        with self.assertRaisesRegex(nade.NadeError, "index"):
+            group.place(2, None)
+        with self.assertRaisesRegex(TypeError, "surface: expected a nade surface, found str"):
+            nade.Group(["ball"])
+        with self.assertRaises(nade.NadeError):
+            nade.Group([])
+
+    def test_custom_is_as_the_library_s_own(self) -> None:
+        def ball(query: Any, farthest: float) -> Any:
+            length = float(np.linalg.norm(query))
+            if length - 0.15 > farthest:
+                return None
+            return 0.15 * query / length, query / length, length - 0.15
+
+        positions, rotations = stroke()
+        positions = positions[:40]
+        rotations = rotations[:40]
+        below = nade.placement([0, -0.15, 0])
+        given = (positions, rotations, times(len(positions)))
+        custom = nade.Custom(ball, bounds=lambda: ([-0.15] * 3, [0.15] * 3), shape=lambda: 1)
+        expected = nade.correct(*given, nade.Sphere(0.15), placement=below)
+        drawn = nade.correct(*given, custom, placement=below)
+        np.testing.assert_allclose(drawn.positions, expected.positions, atol=1e-5)
+        scene = nade.Scene()
+        scene.add(1, custom, below)
+        in_scene = nade.correct(*given, scene)
+        np.testing.assert_allclose(in_scene.positions, expected.positions, atol=1e-5)
+        kept = len(_surfaces._kept)
+        del custom
+        gc.collect()
+        self.assertEqual(len(_surfaces._kept), kept)  # the scene has it
+        nade.correct(*given, scene)
+        del scene
+        gc.collect()
+        self.assertEqual(len(_surfaces._kept), kept - 1)
+
+    def test_what_a_custom_surface_raises_comes_out(self) -> None:
+        def broken(query: Any, farthest: float) -> Any:
+            raise KeyError("mine")
+
+        with self.assertRaisesRegex(KeyError, "mine"):
+            nade.Custom(broken).closest_point([0, 1, 0])
+        self.assertIsNotNone(nade.Plane().closest_point([0, 1, 0]))
+        with self.assertRaisesRegex(ValueError, "closest_point: point: expected the shape"):
+            nade.Custom(lambda *_: ([0, 1], [0, 1, 0], 1.0)).closest_point([0, 1, 0])
+        with self.assertRaisesRegex(KeyError, "mine"):
+            nade.Corrector().update(nade.rest_hand("right"), nade.Custom(broken), 0, side="right")
+        with self.assertRaisesRegex(TypeError, "closest_point: expected a function, found int"):
+            nade.Custom(3)
 
     def test_scene(self) -> None:
         scene = nade.Scene()

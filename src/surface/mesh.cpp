@@ -145,9 +145,9 @@ struct MeshSurface::Impl {
   double radius = 0.0;
 
   void follow_vertices() {
-    normals.update(mesh);
-    tree.set_shading(normals.shading(), normals.shading_of());
     tree.set_triangles(mesh.vertices, mesh.triangles);
+    normals.update(mesh, tree);
+    tree.set_shading(normals.shading(), normals.shading_of());
     if (topology.sign == detail::SignRule::winding) tree.set_dipoles();
     const Eigen::AlignedBox3f& bounds = tree.bounds();
     centre = bounds.center().cast<double>();

@@ -5,6 +5,7 @@
 
 #include "mesh_topology.h"
 #include "octahedral.h"
+#include "triangle_tree.h"
 
 namespace nade::detail {
 
@@ -15,8 +16,9 @@ class MeshNormals {
   /// `update` must follow.
   void build(const WeldedMesh& mesh, const MeshTopology& topology);
 
-  /// After vertices have moved. Creases stay where `build` found them. Does not allocate.
-  void update(const WeldedMesh& mesh) noexcept;
+  /// After vertices have moved, in the mesh and in its tree. Creases stay where `build` found them.
+  /// Does not allocate.
+  void update(const WeldedMesh& mesh, const TriangleTree& tree) noexcept;
 
   /// Angle-weighted, not unit (Baerentzen, Aanaes 2005).
   [[nodiscard]] Eigen::Vector3d vertex_pseudonormal(std::uint32_t vertex) const {
@@ -32,7 +34,8 @@ class MeshNormals {
  private:
   std::vector<Eigen::Vector3f> vertex_pseudonormals_;
   std::vector<std::uint8_t> on_border_;
-  std::vector<Eigen::Vector3f> shading_;  ///< room: sums of what is about each
+  std::vector<Eigen::Vector3f> shading_;       ///< room: sums of what is about each
+  std::vector<std::uint32_t> shading_vertex_;  ///< whose they are
   std::vector<Octahedral> packed_;
   std::vector<Corners> shading_index_;
 };

@@ -27,8 +27,11 @@ inline constexpr float kOctahedralScale = 32767.0F;
     u = std::copysign(1.0F - std::abs(on.y()), on.x());
     v = std::copysign(1.0F - std::abs(on.x()), on.y());
   }
-  return {static_cast<std::int16_t>(std::lround(u * kOctahedralScale)),
-          static_cast<std::int16_t>(std::lround(v * kOctahedralScale))};
+  // `lround`, without the call.
+  const auto whole = [](float x) {
+    return static_cast<std::int16_t>(x * kOctahedralScale + std::copysign(0.5F, x));
+  };
+  return {whole(u), whole(v)};
 }
 
 /// Not normalised: its coordinates' magnitudes sum to 1.

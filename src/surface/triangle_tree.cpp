@@ -3,27 +3,33 @@
 #include <algorithm>
 #include <utility>
 
+#include "simd8.h"
+
 namespace nade::detail {
 namespace {
 
 using Eigen::Vector3f;
 
+float highest8(Float8 a) { return -lowest8(all8(0.0F) - a); }
+
+/// An unused child's box is inside out, and changes nothing.
 TreeBox box_of(const TreeNode& node) {
   TreeBox box;
-  for (std::uint32_t i = 0; i < kTreeWidth; ++i) {
-    if (node.child[i] == kNoChild) continue;
-    box.extend(Vector3f(node.side[0][i], node.side[1][i], node.side[2][i]));
-    box.extend(Vector3f(node.side[3][i], node.side[4][i], node.side[5][i]));
+  for (int axis = 0; axis < 3; ++axis) {
+    box.low[axis] = lowest8(load8(node.side[axis]));
+    box.high[axis] = highest8(load8(node.side[axis + 3]));
   }
   return box;
 }
 
 TreeBox box_of(const TriangleBlock& block) {
   TreeBox box;
-  for (std::uint32_t i = 0; i < kTreeWidth; ++i) {
-    box.extend(Vector3f(block.a[0][i], block.a[1][i], block.a[2][i]));
-    box.extend(Vector3f(block.b[0][i], block.b[1][i], block.b[2][i]));
-    box.extend(Vector3f(block.c[0][i], block.c[1][i], block.c[2][i]));
+  for (int axis = 0; axis < 3; ++axis) {
+    const Float8 a = load8(block.a[axis]);
+    const Float8 b = load8(block.b[axis]);
+    const Float8 c = load8(block.c[axis]);
+    box.low[axis] = lowest8(min8(a, min8(b, c)));
+    box.high[axis] = highest8(max8(a, max8(b, c)));
   }
   return box;
 }
@@ -97,27 +103,30 @@ void TriangleTree::set_triangles(std::span<const Vector3f> vertices,
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
     fill_block(blocks_[i], block_begin_[i], block_begin_[i + 1], vertices, triangles);
   }
-  TreeBox whole;
-  for (const TriangleBlock& block : blocks_) whole.extend(box_of(block));
-  bounds_ = Eigen::AlignedBox3f(whole.low, whole.high);
-  // Boxes are wider than what they hold by more than a ray's arithmetic is wrong about them, as
-  // long as it starts within two sizes of the mesh.
-  constexpr float kMargin = 1e-6F;
-  const float reach = bounds_.center().norm() + 2.0F * bounds_.diagonal().norm();
-  const Vector3f margin = Vector3f::Constant(kMargin * reach);
   for (auto node = nodes_.rbegin(); node != nodes_.rend(); ++node) {
     for (std::uint32_t i = 0; i < kTreeWidth; ++i) {
       const std::uint32_t child = node->child[i];
       TreeBox box;
       if (child != kNoChild) {
-        const bool leaf = (child & kLeafBit) != 0;
-        box = leaf ? box_of(blocks_[child & ~kLeafBit]) : box_of(nodes_[child]);
-        if (leaf) box = {box.low - margin, box.high + margin};
+        box = (child & kLeafBit) != 0 ? box_of(blocks_[child & ~kLeafBit]) : box_of(nodes_[child]);
       }
       for (int axis = 0; axis < 3; ++axis) {
         node->side[axis][i] = box.low[axis];
         node->side[axis + 3][i] = box.high[axis];
       }
+    }
+  }
+  const TreeBox whole = box_of(nodes_.front());
+  bounds_ = Eigen::AlignedBox3f(whole.low, whole.high);
+  // Boxes are wider than what they hold by more than a ray's arithmetic is wrong about them, as
+  // long as it starts within two sizes of the mesh.
+  constexpr float kMargin = 1e-6F;
+  const Float8 margin =
+      all8(kMargin * (bounds_.center().norm() + 2.0F * bounds_.diagonal().norm()));
+  for (TreeNode& node : nodes_) {
+    for (int axis = 0; axis < 3; ++axis) {
+      store8(node.side[axis], load8(node.side[axis]) - margin);
+      store8(node.side[axis + 3], load8(node.side[axis + 3]) + margin);
     }
   }
 }

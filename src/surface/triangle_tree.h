@@ -33,6 +33,11 @@ class TriangleTree {
   void set_triangles(std::span<const Eigen::Vector3f> vertices,
                      std::span<const Corners> triangles) noexcept;
 
+  /// The triangles as `set_triangles` put them, eight at a time; block i holds those from
+  /// `block_begin()[i]` up to the next one.
+  [[nodiscard]] std::span<const TriangleBlock> blocks() const noexcept { return blocks_; }
+  [[nodiscard]] std::span<const std::uint32_t> block_begin() const noexcept { return block_begin_; }
+
   /// Shading normals, and which of them each corner has. Does not allocate.
   void set_shading(std::span<const Octahedral> normals,
                    std::span<const Corners> normal_of) noexcept;

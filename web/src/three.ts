@@ -1,15 +1,16 @@
 /** nade with three.js. */
-import {Box3, Group, Matrix4, Quaternion, Vector3} from 'three';
-import type {Mesh, Object3D, WebXRSpaceEventMap, XRHandSpace, XRJointSpace} from 'three';
+import {Box3, Group, Quaternion, Vector3} from 'three';
+import type {Object3D, WebXRSpaceEventMap, XRHandSpace, XRJointSpace} from 'three';
 import type {Corrector, Result} from './corrector.js';
+import {DrawnVertices} from './drawn_vertices.js';
 import {badArgument} from './error.js';
-import type {Nade} from './index.js';
+import {fillPalm} from './joints.js';
 import {HAND_FLOATS, JOINT_FLOATS} from './layout.js';
+import type {Nade} from './nade.js';
 import type {Scene} from './scene.js';
 import type {MeshSurface, Surface} from './surface.js';
 import {JOINT_NAMES} from './types.js';
 import type {CorrectorOptions, Feel, Hand, Placement, Side} from './types.js';
-import {fillPalm} from './webxr.js';
 
 const WRIST = 1;
 
@@ -84,63 +85,48 @@ export class CorrectedHand extends Group<WebXRSpaceEventMap> {
 
 /** The triangles of all meshes in an object, in its frame, as they stand now. */
 export function trianglesOf(object: Object3D): {vertices: Float32Array; triangles: Uint32Array} {
-  const vertices: number[] = [];
-  const triangles: number[] = [];
-  object.updateWorldMatrix(true, true);
-  const home = new Matrix4().copy(object.matrixWorld).invert();
-  object.traverse((part) => {
-    const mesh = part as Mesh & {isInstancedMesh?: boolean; count?: number;
-                                 getMatrixAt?: (i: number, into: Matrix4) => void};
-    if (!mesh.isMesh || !mesh.geometry.getAttribute('position')) return;
-    const into = new Matrix4().multiplyMatrices(home, mesh.matrixWorld);
-    const count = mesh.isInstancedMesh ? mesh.count ?? 0 : 1;
-    const instance = new Matrix4();
-    for (let i = 0; i < count; ++i) {
-      if (mesh.isInstancedMesh) mesh.getMatrixAt?.(i, instance);
-      addTriangles(mesh, new Matrix4().multiplyMatrices(into, instance), vertices, triangles);
-    }
-  });
-  if (triangles.length === 0) throw badArgument('object: expected meshes with triangles, found none');
-  return {vertices: new Float32Array(vertices), triangles: new Uint32Array(triangles)};
+  return trianglesNow(new DrawnVertices(object));
 }
 
-function addTriangles(mesh: Mesh, matrix: Matrix4, vertices: number[], triangles: number[]): void {
-  const first = vertices.length / 3;
-  const {index} = mesh.geometry;
-  const count = mesh.geometry.getAttribute('position').count;
-  const point = new Vector3();
-  for (let i = 0; i < count; ++i) {
-    // With bones and morph targets, as it is drawn.
-    mesh.getVertexPosition(i, point).applyMatrix4(matrix);
-    vertices.push(point.x, point.y, point.z);
-  }
-  const corners = index ? index.count : count;
-  const turned = matrix.determinant() < 0;
-  for (let i = 0; i + 2 < corners; i += 3) {
-    const [a, b, c] = [0, 1, 2].map((k) => first + (index ? index.getX(i + k) : i + k));
-    triangles.push(a, turned ? c : b, turned ? b : c);
-  }
+function trianglesNow(drawn: DrawnVertices) {
+  const vertices = drawn.read() ?? new Float32Array();
+  const triangles = drawn.triangles();
+  if (triangles.length === 0) throw badArgument('object: expected meshes with triangles, found none');
+  return {vertices, triangles};
+}
+
+/** An object, and its vertices where they move. */
+interface Touchable {
+  id: number;
+  surface: Surface;
+  drawn: DrawnVertices | null;
 }
 
 /** Keeps the objects of a three.js scene in one of nade's. */
 export class TouchableObjects {
   readonly scene: Scene;
-  private readonly objects = new Map<Object3D, {id: number; surface: Surface; moves: boolean}>();
+  private readonly objects = new Map<Object3D, Touchable>();
   private next = 1;
 
   constructor(private readonly nade: Nade) { this.scene = nade.scene(); }
 
   /**
    * An object may be touched from now on, and gives its id. Without a `surface` of yours its
-   * triangles are. `deforms`: it has bones or morph targets that move, and is refitted each frame.
+   * triangles are, as bones and morph targets move them. `deforms`: false where they need not be
+   * followed, true where parts of the object move against each other.
    */
   add(object: Object3D, options: {surface?: Surface; feel?: Feel; deforms?: boolean} = {}): number {
     const id = this.next++;
-    const {vertices, triangles} = options.surface ? {} as Partial<ReturnType<typeof trianglesOf>> :
-                                                    trianglesOf(object);
-    const surface = options.surface ?? this.nade.mesh(vertices!, triangles!);
+    let {surface} = options;
+    let drawn: DrawnVertices | null = null;
+    if (!surface) {
+      drawn = new DrawnVertices(object);
+      const {vertices, triangles} = trianglesNow(drawn);
+      surface = this.nade.mesh(vertices, triangles);
+    }
     this.scene.add(id, surface, placementOf(object), options.feel);
-    this.objects.set(object, {id, surface, moves: options.deforms ?? false});
+    const follows = options.deforms ?? drawn?.deforms ?? false;
+    this.objects.set(object, {id, surface, drawn: follows ? drawn : null});
     return id;
   }
 
@@ -151,11 +137,12 @@ export class TouchableObjects {
     this.objects.delete(object);
   }
 
-  /** Once a frame, before the hands: objects stand where three has them. */
+  /** Once a frame, before the hands: objects stand where three has them, in the shape they have. */
   update(): void {
-    for (const [object, {id, surface, moves}] of this.objects) {
-      if (moves) {
-        (surface as MeshSurface).refit(trianglesOf(object).vertices);
+    for (const [object, {id, surface, drawn}] of this.objects) {
+      const vertices = drawn?.read();
+      if (vertices) {
+        (surface as MeshSurface).refit(vertices);
         this.scene.deformed(id);
       }
       this.scene.place(id, placementOf(object));

@@ -1,13 +1,13 @@
 import assert from 'node:assert/strict';
-import {execFileSync} from 'node:child_process';
-import {mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
-import {tmpdir} from 'node:os';
+import {copyFileSync, mkdirSync, readdirSync, readFileSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {fileURLToPath} from 'node:url';
 import test from 'node:test';
 import {brotliCompressSync, gzipSync} from 'node:zlib';
 
 import {buildSync} from 'esbuild';
+
+import {freshProject, moduleOf} from './project.js';
 
 const WASM_BYTES = 170e3;
 const CORE_BYTES = 12e3;
@@ -25,14 +25,8 @@ test('size: nade.wasm by brotli, the core’s JavaScript by gzip', (t) => {
 });
 
 test('packed, installed into an empty project, checked by tsc, bundled and run', () => {
-  const project = mkdtempSync(join(tmpdir(), 'nade-project-'));
-  const run = (command, ...values) =>
-    execFileSync(command, values, {cwd: project, encoding: 'utf8'});
+  const {project, run, remove} = freshProject();
   try {
-    const packed = execFileSync('npm', ['pack', '--silent', '--pack-destination', project],
-                                {cwd: folder, encoding: 'utf8'}).trim();
-    writeFileSync(join(project, 'package.json'), '{"name":"fresh","type":"module"}');
-    run('npm', 'install', '--silent', '--offline', '--no-audit', `./${packed}`);
     writeFileSync(join(project, 'use.ts'), `
       import {load, type Result} from 'nade';
       import {readRecording} from 'nade/recording';
@@ -45,11 +39,37 @@ test('packed, installed into an empty project, checked by tsc, bundled and run',
     `);
     writeFileSync(join(project, 'tsconfig.json'), JSON.stringify({compilerOptions: {
       strict: true, module: 'nodenext', target: 'es2022', skipLibCheck: false, types: []}}));
-    run(join(folder, 'node_modules/.bin/tsc'));
+    run(moduleOf('.bin/tsc'));
     assert.equal(run('node', 'use.js'), 'free function\n');
-    run(join(folder, 'node_modules/.bin/esbuild'), 'use.js', '--bundle', '--format=esm',
-        '--outfile=bundle.js');
+    run(moduleOf('.bin/esbuild'), 'use.js', '--bundle', '--format=esm', '--outfile=bundle.js');
   } finally {
-    rmSync(project, {recursive: true});
+    remove();
+  }
+});
+
+test('bundled: nade.wasm beside the script, or within it', () => {
+  const {project, run, remove} = freshProject();
+  const bundle = (name, module) => {
+    writeFileSync(join(project, `${name}.js`), `
+      import {load} from '${module}';
+      const nade = await load();
+      const tracked = nade.restHand('right');
+      console.log(nade.corrector().update('right', tracked, nade.plane(), 0).status);`);
+    mkdirSync(join(project, name));
+    run(moduleOf('.bin/esbuild'), `${name}.js`, '--bundle', '--format=esm', '--log-level=warning',
+        `--outfile=${name}/main.mjs`);
+    return join(project, name, 'main.mjs');
+  };
+  try {
+    const beside = bundle('beside', 'nade');
+    copyFileSync(join(project, 'node_modules/nade/dist/nade.wasm'),
+                 join(project, 'beside/nade.wasm'));
+    assert.equal(run('node', beside), 'corrected\n');
+    const inline = bundle('inline', 'nade/inline');
+    assert.deepEqual(readdirSync(join(project, 'inline')), ['main.mjs']);
+    assert.equal(run('node', inline), 'corrected\n');
+    assert.ok(!readFileSync(inline, 'utf8').includes('import.meta'));
+  } finally {
+    remove();
   }
 });

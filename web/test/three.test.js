@@ -1,10 +1,12 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import {BoxGeometry, Group, InstancedMesh, Matrix4, Mesh, SphereGeometry} from 'three';
+import {Bone, BoxGeometry, BufferAttribute, Group, InstancedMesh, Matrix4, Mesh, Skeleton,
+        SkinnedMesh, SphereGeometry, Vector3} from 'three';
 
 import {JOINT_NAMES, load, NadeError} from '../dist/index.js';
 import {CorrectedHand, TouchableObjects, trianglesOf} from '../dist/three.js';
+import {randomNumbers} from './strokes.js';
 
 const nade = await load();
 
@@ -76,4 +78,76 @@ test('objects are where three has them, their parts and instances too', () => {
   group.scale.set(1, 2, 1);
   assert.throws(() => new TouchableObjects(nade).add(group), NadeError);
   assert.throws(() => trianglesOf(new Group()), NadeError);
+});
+
+/** A ball with two bones and two morph targets, of so many vertices. */
+function livingBall(columns, rows) {
+  const geometry = new SphereGeometry(0.1, columns, rows);
+  const {count} = geometry.getAttribute('position');
+  const random = randomNumbers(17);
+  const weights = Array.from({length: count}, () => 0.5 + 0.5 * random());
+  const four = (Kind, use) => new BufferAttribute(new Kind(weights.flatMap(use)), 4);
+  geometry.setAttribute('skinIndex', four(Uint16Array, () => [0, 1, 0, 0]));
+  geometry.setAttribute('skinWeight', four(Float32Array, (w) => [w, 1 - w, 0, 0]));
+  geometry.morphAttributes.position = [0, 1].map(() => new BufferAttribute(
+    Float32Array.from({length: 3 * count}, () => 0.02 * random()), 3));
+  geometry.morphTargetsRelative = true;
+  const mesh = new SkinnedMesh(geometry);
+  const bones = [new Bone(), new Bone()];
+  bones[0].add(bones[1]);
+  bones[1].position.set(0, 0.05, 0);
+  const group = new Group();
+  group.add(mesh, bones[0]);
+  group.updateMatrixWorld(true);
+  mesh.bind(new Skeleton(bones));
+  mesh.updateMorphTargets();
+  return {group, mesh, bones};
+}
+
+test('vertices are where three draws them, with bones and morph targets', () => {
+  const {group, mesh, bones} = livingBall(32, 16);
+  group.position.set(1, 2, 3);
+  group.rotation.set(0.3, 0.4, 0.5);
+  mesh.position.set(0.1, 0, 0);
+  bones[0].rotation.z = 0.7;
+  bones[1].rotation.x = 1.1;
+  mesh.morphTargetInfluences = [0.3, 0.9];
+  for (const [mode, relative] of [['attached', true], ['detached', true], ['attached', false]]) {
+    mesh.bindMode = mode;
+    mesh.geometry.morphTargetsRelative = relative;
+    const {vertices} = trianglesOf(group);
+    group.updateMatrixWorld(true);
+    mesh.skeleton.update();
+    for (let i = 0; i < vertices.length / 3; ++i) {
+      const drawn = mesh.getVertexPosition(i, new Vector3()).applyMatrix4(mesh.matrixWorld);
+      const found = group.localToWorld(new Vector3().fromArray(vertices, 3 * i));
+      assert.ok(drawn.distanceTo(found) < 1e-6, `${mode}, ${relative}: ${drawn.distanceTo(found)}`);
+    }
+  }
+});
+
+test('what bones and morph targets move is followed', (t) => {
+  const {group, mesh, bones} = livingBall(200, 130);
+  const objects = new TouchableObjects(nade);
+  objects.add(group);
+  const corrector = nade.corrector();
+  const hand = nade.restHand('right');
+  const heights = [];
+  const times = [];
+  for (let i = 0; i <= 60; ++i) {
+    if (i > 30) bones[0].position.y = 0.001 * (i - 30);
+    const start = process.hrtime.bigint();
+    objects.update();
+    if (i > 30) times.push(Number(process.hrtime.bigint() - start) / 1e6);
+    const lowered = hand.map((x, k) => (k % 8 === 5 ? x + 0.1 + Math.max(0, 0.03 - 0.001 * i) : x));
+    const {joints} = corrector.update('right', lowered, objects.scene, 11 * i);
+    heights.push(joints[5] - lowered[5]);
+  }
+  const rise = heights[60] - heights[30];
+  assert.ok(rise > 0.02, `${rise} m`);
+  times.sort((a, b) => a - b);
+  t.diagnostic(`${times[15].toFixed(1)} ms a frame for ` +
+               `${mesh.geometry.getAttribute('position').count} vertices`);
+  objects.remove(group);
+  assert.equal(objects.scene.size, 0);
 });
