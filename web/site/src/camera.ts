@@ -55,8 +55,8 @@ export class Camera {
     solution.onResults((result) => this.take(result, performance.now()));
   }
 
-  /** Asks the browser for the camera, and shows its picture in `video`. */
-  static async open(video: HTMLVideoElement): Promise<Camera> {
+  /** Asks the browser for the camera, and shows its picture in `video`; `failed` is for later. */
+  static async open(video: HTMLVideoElement, failed: (error: Error) => void): Promise<Camera> {
     if (!navigator.mediaDevices) throw new Error('this browser gives no camera to this page');
     const stream = await navigator.mediaDevices.getUserMedia({video: PICTURE, audio: false}).catch(
       (error: Error) => { throw new Error(`no camera: ${error.message}`); });
@@ -67,7 +67,8 @@ export class Camera {
       const solution = new window.Hands!({locateFile: (name) => FOLDER + name});
       const camera = new Camera(video, stream, solution);
       await solution.send({image: video});
-      void camera.watch();
+      stream.getVideoTracks()[0].addEventListener('ended', () => failed(new Error('The camera is gone')));
+      camera.watch().catch(failed);
       return camera;
     } catch (error) {
       stop(stream);

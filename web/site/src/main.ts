@@ -9,8 +9,6 @@ import type {Aim} from '../../src/pointer.js';
 import {readRecording} from '../../src/recording.js';
 import {Camera, withPalmOf} from './camera.js';
 import {Controls, METHODS} from './controls.js';
-import {askForCamera, say, showDialogs, showFigures, showHeadsets, showReplay, showSource,
-        unsay} from './words.js';
 import {ShownHand, SIDES} from './hands.js';
 import type {TrackedHands} from './hands.js';
 import {FIRST_OBJECT_ID, Headset} from './headset.js';
@@ -20,6 +18,8 @@ import type {Thing} from './objects.js';
 import {Replay} from './replay.js';
 import type {Key} from './spacepanel.js';
 import {shadeBy, Stage} from './stage.js';
+import {askForCamera, replaySpeed, say, showDialogs, showFigures, showHeadsets, showReplay,
+        showSource, unsay} from './words.js';
 
 const POINTER_SIDE = 'right';
 const PRESSED_M = 0.022;  // as the panel's slider begins
@@ -64,7 +64,9 @@ export class Page {
       pause: () => { if (this.replay) this.replay.playing = !this.replay.playing; }});
     showReplay(() => this.replay);
     showDialogs();
-    void showHeadsets((mode) => this.headset.enter(mode, () => this.headsetLeft()));
+    void showHeadsets((mode) => this.headset.enter(mode, () => {
+      this.controls.wishes.pointer = null;
+    }));
   }
 
   get thing(): Thing { return this.things[this.current]; }
@@ -212,10 +214,6 @@ export class Page {
     return {x: (point.x + 1) / 2 * canvas.clientWidth, y: (1 - point.y) / 2 * canvas.clientHeight};
   }
 
-  private headsetLeft(): void {
-    this.controls.wishes.pointer = null;
-  }
-
   /** The panel in a headset. */
   private keys(): Key[][] {
     const {controls} = this;
@@ -244,6 +242,7 @@ export class Page {
 
   private play(replay: Replay): void {
     this.replay = replay;
+    replay.speed = replaySpeed();
     replay.placeOn(this.thing, this.current);
     for (const hand of Object.values(this.shown)) hand.reset();
   }
@@ -255,7 +254,9 @@ export class Page {
     }
     say('Starting the camera …');
     try {
-      const camera = await Camera.open(video);
+      const camera = await Camera.open(video, (error) => {
+        if (this.source === 'camera') this.failed(error);
+      });
       unsay();
       if (this.source === 'camera') this.camera = camera;
       else camera.close();

@@ -90,6 +90,11 @@ export interface View {
   up: number;
 }
 
+/** How well it is drawn, best first: a machine that is too slow for one goes on to the next. */
+const QUALITIES = [{mostPixels: 2, shadows: true}, {mostPixels: 1, shadows: true},
+                   {mostPixels: 0.4, shadows: false}];
+const SLOW_MS = 45;
+const SLOW_FRAMES = 6;
 /** So much of a high picture goes up. */
 const PANEL_SHARE = 0.08;
 
@@ -103,6 +108,9 @@ export class Stage {
   readonly renderer: THREE.WebGLRenderer;
   private readonly haze = new THREE.Fog(BACKGROUND);
   private readonly key = new THREE.DirectionalLight('#fff4e6', 2.4);
+  private quality = 0;
+  private slow = 0;
+  private drawnAt = 0;
   private readonly shown = {target: new THREE.Vector3(0, 0.3, 0), distance: 1.6, around: 0, up: 0.4};
 
   constructor(private readonly canvas: HTMLCanvasElement) {
@@ -145,8 +153,18 @@ export class Stage {
 
   /** Where no headset decides that, it looks from somewhere else slowly. */
   draw(seconds: number): void {
+    this.keepUp();
     if (!this.renderer.xr.isPresenting) this.look(seconds);
     this.renderer.render(this.scene, this.camera);
+  }
+
+  private keepUp(): void {
+    const now = performance.now();
+    this.slow = now - this.drawnAt > SLOW_MS ? this.slow + 1 : 0;
+    this.drawnAt = now;
+    if (this.slow < SLOW_FRAMES || this.quality === QUALITIES.length - 1) return;
+    this.slow = 0;
+    this.key.castShadow = QUALITIES[++this.quality].shadows;
   }
 
   private look(seconds: number): void {
@@ -187,7 +205,7 @@ export class Stage {
 
   private fit(): void {
     const {clientWidth: width, clientHeight: height} = this.canvas;
-    const ratio = Math.min(devicePixelRatio, 2);
+    const ratio = Math.min(devicePixelRatio, QUALITIES[this.quality].mostPixels);
     const size = this.renderer.getSize(new THREE.Vector2());
     if (size.x === width && size.y === height && this.renderer.getPixelRatio() === ratio) return;
     this.renderer.setPixelRatio(ratio);

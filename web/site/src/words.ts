@@ -52,18 +52,18 @@ export async function showHeadsets(enter: (mode: Immersion) => Promise<void>): P
   }
 }
 
+export const replaySpeed = () => 2 ** Number(find<HTMLInputElement>('#speed').value);
+
 export function showReplay(replay: () => Replay | null): void {
-  const [play, speed, time] = [find<HTMLButtonElement>('#play'), find<HTMLInputElement>('#speed'),
-                               find<HTMLInputElement>('#time')];
-  const apply = () => {
-    const now = replay();
-    if (now) now.speed = 2 ** Number(speed.value);
-  };
-  play.addEventListener('click', () => {
+  const time = find<HTMLInputElement>('#time');
+  find('#play').addEventListener('click', () => {
     const now = replay();
     if (now) now.playing = !now.playing;
   });
-  speed.addEventListener('input', apply);
+  find('#speed').addEventListener('input', () => {
+    const now = replay();
+    if (now) now.speed = replaySpeed();
+  });
   time.addEventListener('input', () => {
     const now = replay();
     if (!now) return;
