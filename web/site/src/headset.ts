@@ -85,7 +85,7 @@ export class Headset {
     });
     await xr.setSession(session);
     this.top.material = mode === 'immersive-vr' ?
-      shadeByHand(new THREE.MeshStandardMaterial({color: '#d8d0c6', roughness: 0.8})) :
+      shadeByHand(new THREE.MeshStandardMaterial({color: '#cdb193', roughness: 0.75})) :
       new THREE.ShadowMaterial({opacity: 0.35});
     this.ground.visible = mode === 'immersive-vr';
     this.stage.surround(mode === 'immersive-vr' ? 'nothing' : 'room', this.table);
