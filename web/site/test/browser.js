@@ -14,6 +14,9 @@ export const built = join(root, 'build/web');
 const pictures = join(built, 'pictures');
 const SIZE = {viewport: {width: 1280, height: 800}};
 
+/** A machine may have other things to do. */
+const PATIENCE_MS = 120e3;
+
 /** Serves the page, and opens it as often as is asked; `close` ends both. */
 export async function openBrowser() {
   const server = spawn(process.execPath, [join(root, 'web/site/serve.js'), join(built, 'site'), '8400']);
@@ -34,6 +37,7 @@ export async function openBrowser() {
     /** The page, ready. What it asks of others, or calls an error, fails the test at `done`. */
     async open({script, ...options} = {}) {
       const context = await browser.newContext({...SIZE, permissions: ['camera'], ...options});
+      context.setDefaultTimeout(PATIENCE_MS);
       const complaints = [];
       const requests = [];
       context.on('request', (request) => requests.push(request.url()));
@@ -62,7 +66,7 @@ export async function openBrowser() {
 }
 
 /** Asks the page again and again; gives its first answer that is something. */
-export async function until(page, question, argument, seconds = 30) {
+export async function until(page, question, argument, seconds = 60) {
   for (let end = Date.now() + 1000 * seconds; Date.now() < end;) {
     const answer = await page.evaluate(question, argument);
     if (answer) return answer;
@@ -79,7 +83,7 @@ export async function frames(page, count) {
     if (window.seen < most) return false;
     window.seen = 0;
     return true;
-  }, count, 40);
+  }, count, 120);
 }
 
 /** A headset that is none; `window.inject(side, joints)` puts a hand into the page's scene. */

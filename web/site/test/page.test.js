@@ -233,7 +233,7 @@ test('a camera: asked for, loaded only then, a hand of a film, and gone again', 
   assert.equal(loaded(), 0);
   await choose(page, 'sources', 'camera');
   await page.click('#consent [value=yes]');
-  await until(page, () => window.nadePage.camera()?.seen.right && window.nadePage.hand('right'), null, 45);
+  await until(page, () => window.nadePage.camera()?.seen.right && window.nadePage.hand('right'), null, 120);
   assert.ok(loaded() > 0);
   await until(page, () => /right hand/.test(document.querySelector('#moment').textContent));
   const first = palm(await hand(page));
@@ -306,7 +306,7 @@ test('a small screen held upright, and a finger', async () => {
   const viewport = {width: 390, height: 844};
   const {page, picture, done} = await browser.open({
     viewport, hasTouch: true, isMobile: true});
-  await page.touchscreen.tap(190, 470);
+  await page.touchscreen.tap(190, 405);
   await until(page, () => window.nadePage.hand('right')?.status === 'corrected');
   await frames(page, 12);
   liesOut(await skin(page));
