@@ -25,6 +25,7 @@ const POINTER_SIDE = 'right';
 const PRESSED_M = 0.022;  // as the panel's slider begins
 const LONGEST_STEP_S = 0.05;
 const MOST_SPENT = 600;
+const INWARD = Math.PI / 6;  // a pointer's hand comes so far from its own side, one in a picture does not
 
 const canvas = document.querySelector<HTMLCanvasElement>('#stage')!;
 const video = document.querySelector<HTMLVideoElement>('#video')!;
@@ -186,10 +187,12 @@ export class Page {
       if (!seen) continue;
       const pointer = this.pointers[side];
       pointer.settings.depth = this.pointers[POINTER_SIDE].settings.depth;
-      // The pointer's hand comes from its own side by itself.
       const ray = this.stage.ray(seen.place.x * canvas.clientWidth,
                                  seen.place.y * canvas.clientHeight);
+      const {turn} = pointer.settings;
+      pointer.settings.turn = seen.turn + (side === 'right' ? -INWARD : INWARD);
       hands[side] = withPalmOf(seen.hand, pointer.update(this.thing, this.aim(ray), seconds));
+      pointer.settings.turn = turn;
     }
     return hands;
   }
