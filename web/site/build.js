@@ -1,84 +1,130 @@
-// Builds the page: node build.js SHARE OUT. SHARE is the folder share/nade of nade's build, with
-// the dog and the hands; what is in OUT needs any static server, and nothing else.
-import {copyFileSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync,
-        writeFileSync} from 'node:fs';
+// Builds the page: node build.js SHARE STROKE OUT. SHARE is the folder share/nade of nade's build,
+// with the dog and the hands, STROKE a recording to replay; what is in OUT needs any static server,
+// and nothing else.
+import {copyFileSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync} from 'node:fs';
 import {dirname, join} from 'node:path';
 import {fileURLToPath} from 'node:url';
 
 import {build} from 'esbuild';
 
 const MOST_BYTES = 3e6;
+/** What the page asks for by itself. */
+const FIRST = ['index.html', 'style.css', 'icon.svg', 'main.js', 'nade.wasm', 'right.glb',
+               'dog.glb', 'relaxed.jsonl'];
 const here = dirname(fileURLToPath(import.meta.url));
-const [share, out] = process.argv.slice(2);
+const [share, stroke, out] = process.argv.slice(2);
 
-/** The dog standing still, with whole numbers of 16 bits: a third of its size. */
-function smallDog(file) {
+/** glTF's JSON and its binary part. */
+function readGlb(file) {
   const jsonBytes = file.readUInt32LE(12);
+  const binary = file.subarray(28 + jsonBytes);
   const gltf = JSON.parse(file.subarray(20, 20 + jsonBytes).toString());
-  const {attributes, indices} = gltf.meshes[0].primitives[0];
+  const sizes = {SCALAR: 1, VEC3: 3, VEC4: 4, MAT4: 16};
+  const kinds = {5121: Uint8Array, 5125: Uint32Array, 5126: Float32Array};
   const read = (index) => {
-    const {bufferView, count, type} = gltf.accessors[index];
-    const {byteOffset = 0} = gltf.bufferViews[bufferView];
-    const from = file.byteOffset + 28 + jsonBytes + byteOffset;
-    return file.buffer.slice(from, from + 4 * count * (type === 'VEC3' ? 3 : 1));
+    const {bufferView, count, type, componentType} = gltf.accessors[index];
+    const from = binary.byteOffset + (gltf.bufferViews[bufferView].byteOffset ?? 0);
+    const Kind = kinds[componentType];
+    const length = count * sizes[type];
+    return new Kind(binary.buffer.slice(from, from + length * Kind.BYTES_PER_ELEMENT));
   };
-  const positions = new Float32Array(read(attributes.POSITION));
-  const normals = new Float32Array(read(attributes.NORMAL));
-  const colours = new Float32Array(read(attributes.COLOR_0));
-  const corners = new Uint32Array(read(indices));
+  return {gltf, read};
+}
+
+function writeGlb(gltf, parts) {
+  let byteOffset = 0;
+  const padded = parts.map((part) => {
+    const bytes = Buffer.from(part.buffer);
+    return Buffer.concat([bytes, Buffer.alloc(-bytes.length & 3)]);
+  });
+  padded.forEach((part, i) => {
+    Object.assign(gltf.bufferViews[i], {buffer: 0, byteOffset, byteLength: parts[i].byteLength});
+    byteOffset += part.length;
+  });
+  gltf.buffers = [{byteLength: byteOffset}];
+  const json = Buffer.from(JSON.stringify(gltf));
+  const text = Buffer.concat([json, Buffer.alloc(-json.length & 3, ' ')]);
+  const number = (...values) => Buffer.from(new Uint32Array(values).buffer);
+  return Buffer.concat([
+    number(0x46546c67, 2, 28 + text.length + byteOffset), number(text.length, 0x4e4f534a), text,
+    number(byteOffset, 0x004e4942), ...padded]);
+}
+
+/** The dog with whole numbers of 16 and 8 bits: half of its size. */
+function smallDog(file) {
+  const {gltf, read} = readGlb(file);
+  const {attributes, indices} = gltf.meshes[0].primitives[0];
+  const [skin] = gltf.skins;
+  const positions = read(attributes.POSITION);
   const count = positions.length / 3;
   if (count > 65536) throw new Error(`the dog: expected at most 65536 vertices, found ${count}`);
   const unit = positions.reduce((most, x) => Math.max(most, Math.abs(x)), 0) / 32767;
-  const packed = (Kind, values, scale) => {
+  const packed = (Kind, values, size, scale) => {
     const four = new Kind(4 * count);  // glTF wants each vertex on a multiple of four bytes
     for (let i = 0; i < values.length; ++i) {
-      four[4 * Math.floor(i / 3) + i % 3] = Math.round(values[i] * scale);
+      four[4 * Math.floor(i / size) + i % size] = Math.round(values[i] * scale);
     }
     return four;
   };
-  const parts = [packed(Int16Array, positions, 1 / unit), packed(Int16Array, normals, 32767),
-                 packed(Uint8Array, colours, 255), Uint16Array.from(corners)];
-  const places = [0, 1, 2].map((axis) => positions.filter((_, i) => i % 3 === axis));
-  const round = (x) => Math.round(x / unit);
-  const accessor = (bufferView, componentType, normalized) => (
-    {bufferView, componentType, normalized, count, type: 'VEC3'});
-  let byteOffset = 0;
-  const bufferViews = parts.map((part, i) => {
-    const view = {buffer: 0, byteOffset, byteLength: part.byteLength,
-                  target: i < 3 ? 34962 : 34963, byteStride: [8, 8, 4][i]};
-    byteOffset += part.byteLength;
-    return view;
-  });
-  const json = Buffer.from(JSON.stringify({
+  // What the numbers are smaller by, the bones' rest poses are larger by.
+  const inverse = read(skin.inverseBindMatrices).map((x, i) => (i % 16 < 12 ? unit * x : x));
+  const whole = positions.map((x) => Math.round(x / unit));
+  const most = (which, axis) => whole.reduce(
+    (sum, x, i) => (i % 3 === axis ? which(sum, x) : sum), 0);
+  const accessors = [];
+  const bufferViews = [];
+  const parts = [];
+  const add = (data, accessor, view = {}) => {
+    bufferViews.push(view);
+    parts.push(data);
+    return accessors.push({bufferView: parts.length - 1, ...accessor}) - 1;
+  };
+  const vertices = (data, type, more) => add(
+    data, {componentType: {Int16Array: 5122, Uint8Array: 5121}[data.constructor.name], count, type,
+           ...more}, {target: 34962, byteStride: 4 * data.BYTES_PER_ELEMENT});
+  const copied = (index) => {
+    const {componentType, type, min, max} = gltf.accessors[index];
+    return add(read(index), {componentType, count: gltf.accessors[index].count, type, min, max});
+  };
+  const primitive = {
+    attributes: {
+      POSITION: vertices(packed(Int16Array, positions, 3, 1 / unit), 'VEC3', {
+        min: [0, 1, 2].map((axis) => most(Math.min, axis)),
+        max: [0, 1, 2].map((axis) => most(Math.max, axis))}),
+      NORMAL: vertices(packed(Int16Array, read(attributes.NORMAL), 3, 32767), 'VEC3',
+                       {normalized: true}),
+      COLOR_0: vertices(packed(Uint8Array, read(attributes.COLOR_0), 3, 255), 'VEC3',
+                        {normalized: true}),
+      JOINTS_0: vertices(read(attributes.JOINTS_0), 'VEC4'),
+      WEIGHTS_0: vertices(packed(Uint8Array, read(attributes.WEIGHTS_0), 4, 255), 'VEC4',
+                          {normalized: true}),
+    },
+    indices: add(Uint16Array.from(read(indices)), {
+      componentType: 5123, count: gltf.accessors[indices].count, type: 'SCALAR'}, {target: 34963}),
+    material: 0,
+  };
+  const times = new Map();
+  const animations = gltf.animations.map(({name, channels, samplers}) => ({
+    name, channels, samplers: samplers.map(({input, interpolation, output}) => {
+      if (!times.has(input)) times.set(input, copied(input));
+      return {input: times.get(input), interpolation, output: copied(output)};
+    })}));
+  const inverseBindMatrices = add(inverse, {componentType: 5126, count: inverse.length / 16,
+                                            type: 'MAT4'});
+  const {scene, scenes, nodes, materials} = gltf;
+  return writeGlb({
     asset: {version: '2.0', generator: 'nade'},
-    extensionsUsed: ['KHR_mesh_quantization'],
-    extensionsRequired: ['KHR_mesh_quantization'],
-    scene: 0,
-    scenes: [{nodes: [0]}],
-    nodes: [{name: 'dog', mesh: 0, scale: [unit, unit, unit]}],
-    materials: gltf.materials,
-    meshes: [{primitives: [
-      {attributes: {POSITION: 0, NORMAL: 1, COLOR_0: 2}, indices: 3, material: 0}]}],
-    accessors: [
-      {...accessor(0, 5122, false), min: places.map((p) => round(Math.min(...p))),
-       max: places.map((p) => round(Math.max(...p)))},
-      accessor(1, 5122, true), accessor(2, 5121, true),
-      {bufferView: 3, componentType: 5123, count: corners.length, type: 'SCALAR'},
-    ],
-    bufferViews,
-    buffers: [{byteLength: byteOffset}],
-  }));
-  const text = Buffer.concat([json, Buffer.alloc(-json.length & 3, ' ')]);
-  const data = Buffer.concat(parts.map((p) => Buffer.from(p.buffer)));
-  const binary = Buffer.concat([data, Buffer.alloc(-data.length & 3)]);
-  const number = (...values) => Buffer.from(new Uint32Array(values).buffer);
-  return Buffer.concat([
-    number(0x46546c67, 2, 28 + text.length + binary.length), number(text.length, 0x4e4f534a), text,
-    number(binary.length, 0x004e4942), binary]);
+    extensionsUsed: ['KHR_mesh_quantization'], extensionsRequired: ['KHR_mesh_quantization'],
+    scene, scenes, nodes, materials, meshes: [{primitives: [primitive]}],
+    skins: [{...skin, inverseBindMatrices}], animations, accessors, bufferViews}, parts);
 }
 
+const MEDIAPIPE = ['hands.js', 'hands.binarypb', 'hand_landmark_lite.tflite',
+                   'hands_solution_packed_assets.data', 'hands_solution_packed_assets_loader.js',
+                   'hands_solution_simd_wasm_bin.js', 'hands_solution_simd_wasm_bin.wasm'];
+
 rmSync(out, {recursive: true, force: true});
-mkdirSync(out, {recursive: true});
+mkdirSync(join(out, 'mediapipe'), {recursive: true});
 await build({
   entryPoints: [join(here, 'src/main.ts')], outfile: join(out, 'main.js'), bundle: true,
   minify: true, format: 'esm', target: 'es2022', legalComments: 'linked', logLevel: 'warning',
@@ -87,12 +133,22 @@ for (const name of ['index.html', 'style.css', 'icon.svg']) {
   copyFileSync(join(here, name), join(out, name));
 }
 copyFileSync(join(here, '../dist/nade.wasm'), join(out, 'nade.wasm'));
-copyFileSync(join(share, 'hands/right.glb'), join(out, 'hand.glb'));
+for (const name of ['left.glb', 'right.glb', 'LICENSE-relaxed', 'relaxed.jsonl']) {
+  copyFileSync(join(share, 'hands', name), join(out, name));
+}
 copyFileSync(join(share, 'hands/LICENSE-generic-hand.md'), join(out, 'LICENSE-hand.md'));
-copyFileSync(join(share, 'hands/LICENSE-relaxed'), join(out, 'LICENSE-relaxed'));
-copyFileSync(join(share, 'hands/relaxed.jsonl'), join(out, 'relaxed.jsonl'));
+copyFileSync(stroke, join(out, 'stroke.jsonl.gz'));
 writeFileSync(join(out, 'dog.glb'), smallDog(readFileSync(join(share, 'dog.glb'))));
 
-const bytes = readdirSync(out).reduce((sum, name) => sum + statSync(join(out, name)).size, 0);
-console.log(`${out}: ${(bytes / 1e6).toFixed(2)} MB`);
+// Loaded only by who wants it. Its package has no file with the licence that it names, ours.
+for (const name of MEDIAPIPE) {
+  copyFileSync(join(here, '../node_modules/@mediapipe/hands', name), join(out, 'mediapipe', name));
+}
+copyFileSync(join(here, '../../LICENSE'), join(out, 'mediapipe/LICENSE'));
+
+const worker = readFileSync(join(here, 'sw.js'), 'utf8');
+writeFileSync(join(out, 'sw.js'), worker.replace('FIRST = []', `FIRST = ${JSON.stringify(FIRST)}`));
+
+const bytes = FIRST.reduce((sum, name) => sum + statSync(join(out, name)).size, 0);
+console.log(`${out}: ${(bytes / 1e6).toFixed(2)} MB at first`);
 if (bytes > MOST_BYTES) throw new Error(`the page: expected at most ${MOST_BYTES / 1e6} MB`);

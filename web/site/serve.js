@@ -5,7 +5,7 @@ import {extname, resolve, sep} from 'node:path';
 
 const KINDS = {'.html': 'text/html; charset=utf-8', '.js': 'text/javascript', '.css': 'text/css',
                '.wasm': 'application/wasm', '.glb': 'model/gltf-binary', '.svg': 'image/svg+xml',
-               '.jsonl': 'application/jsonl'};
+               '.jsonl': 'application/jsonl', '.gz': 'application/gzip'};
 const folder = resolve(process.argv[2]);
 let port = Number(process.argv[3]);
 

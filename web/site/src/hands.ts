@@ -3,14 +3,17 @@ import * as THREE from 'three';
 import {GLTFLoader} from 'three/addons/loaders/GLTFLoader.js';
 
 import {JOINT_FLOATS, JOINT_NAMES} from '../../src/index.js';
-import type {Hand} from '../../src/index.js';
+import type {Corrector, Hand, Method, Nade, Result, Scene, Side} from '../../src/index.js';
 
-export class DrawnHand {
-  readonly root: THREE.Object3D;
+export const SIDES: readonly Side[] = ['left', 'right'];
+
+/** The hands of one frame, as tracked. */
+export type TrackedHands = Partial<Record<Side, Hand>>;
+
+class DrawnHand {
   private readonly bones: (THREE.Object3D | undefined)[];
 
-  private constructor(root: THREE.Object3D, material: THREE.Material, isGhost: boolean) {
-    this.root = root;
+  constructor(readonly root: THREE.Object3D, material: THREE.Material, isGhost: boolean) {
     root.traverse((part) => {
       if (!(part instanceof THREE.SkinnedMesh)) return;
       part.material = material;
@@ -18,44 +21,8 @@ export class DrawnHand {
       part.castShadow = part.receiveShadow = !isGhost;
       part.renderOrder = isGhost ? 1 : 0;
     });
+    root.visible = false;
     this.bones = JOINT_NAMES.map((name) => root.getObjectByName(name));
-  }
-
-  static async skin(): Promise<DrawnHand> {
-    const material = new THREE.MeshPhysicalMaterial({
-      color: '#d99f80', roughness: 0.58, sheen: 0.6, sheenRoughness: 0.5,
-      sheenColor: new THREE.Color('#c8664a'), side: THREE.DoubleSide});
-    return new DrawnHand(await load(), material, false);
-  }
-
-  /** Seen through everything, brighter at its rim. */
-  static async ghost(): Promise<DrawnHand> {
-    const material = new THREE.ShaderMaterial({
-      transparent: true, depthTest: false, depthWrite: false, blending: THREE.NormalBlending,
-      vertexShader: `
-        #include <common>
-        #include <skinning_pars_vertex>
-        varying vec3 vNormal, vSeen;
-        void main() {
-          #include <beginnormal_vertex>
-          #include <skinbase_vertex>
-          #include <skinnormal_vertex>
-          #include <begin_vertex>
-          #include <skinning_vertex>
-          #include <project_vertex>
-          vNormal = normalMatrix * objectNormal;
-          vSeen = mvPosition.xyz;
-        }`,
-      fragmentShader: `
-        varying vec3 vNormal, vSeen;
-        void main() {
-          float rim = 1.0 - abs(dot(normalize(vNormal), normalize(vSeen)));
-          gl_FragColor = vec4(0.16, 0.42, 0.85, 0.1 + 0.6 * rim * rim);
-        }`,
-    });
-    const hand = new DrawnHand(await load(), material, true);
-    hand.root.visible = false;
-    return hand;
   }
 
   show(hand: Hand): void {
@@ -66,6 +33,99 @@ export class DrawnHand {
   }
 }
 
-async function load(): Promise<THREE.Object3D> {
-  return (await new GLTFLoader().loadAsync('hand.glb')).scene;
+function skin(): THREE.Material {
+  return new THREE.MeshPhysicalMaterial({
+    color: '#d99f80', roughness: 0.58, sheen: 0.6, sheenRoughness: 0.5,
+    sheenColor: new THREE.Color('#c8664a'), side: THREE.DoubleSide});
+}
+
+/** Seen through everything, brighter at its rim. */
+function ghostly(): THREE.Material {
+  return new THREE.ShaderMaterial({
+    transparent: true, depthTest: false, depthWrite: false, blending: THREE.NormalBlending,
+    vertexShader: `
+      #include <common>
+      #include <skinning_pars_vertex>
+      varying vec3 vNormal, vSeen;
+      void main() {
+        #include <beginnormal_vertex>
+        #include <skinbase_vertex>
+        #include <skinnormal_vertex>
+        #include <begin_vertex>
+        #include <skinning_vertex>
+        #include <project_vertex>
+        vNormal = normalMatrix * objectNormal;
+        vSeen = mvPosition.xyz;
+      }`,
+    fragmentShader: `
+      varying vec3 vNormal, vSeen;
+      void main() {
+        float rim = 1.0 - abs(dot(normalize(vNormal), normalize(vSeen)));
+        gl_FragColor = vec4(0.16, 0.42, 0.85, 0.1 + 0.6 * rim * rim);
+      }`,
+  });
+}
+
+/** A hand of one side: corrected, and drawn with or without the one that was tracked. */
+export class ShownHand {
+  /** Of the last frame; null where it was not tracked. */
+  tracked: Hand | null = null;
+  result: Result | null = null;
+  private corrector: Corrector;
+  private method: Method = 'nade';
+
+  private constructor(private readonly nade: Nade, readonly side: Side,
+                      private readonly drawn: DrawnHand, private readonly ghost: DrawnHand) {
+    this.corrector = nade.corrector();
+  }
+
+  static async load(nade: Nade, side: Side, into: THREE.Object3D): Promise<ShownHand> {
+    const model = async () => (await new GLTFLoader().loadAsync(`${side}.glb`)).scene;
+    const [drawn, ghost] = await Promise.all([model(), model()]);
+    into.add(drawn, ghost);
+    return new ShownHand(nade, side, new DrawnHand(drawn, skin(), false),
+                         new DrawnHand(ghost, ghostly(), true));
+  }
+
+  correctBy(method: Method): void {
+    if (method === this.method) return;
+    this.method = method;
+    this.corrector.destroy();
+    this.corrector = this.nade.corrector({method});
+  }
+
+  reset(): void { this.corrector.reset(); }
+
+  /** Corrects the hand of this frame, and gives the time that took, milliseconds. */
+  update(tracked: Hand | undefined, touching: Scene, timeMs: number): number {
+    this.tracked = tracked ?? null;
+    const start = performance.now();
+    this.result = tracked ? this.corrector.update(this.side, tracked, touching, timeMs) : null;
+    return performance.now() - start;
+  }
+
+  draw(withGhost: boolean): void {
+    this.drawn.root.visible = this.result !== null;
+    this.ghost.root.visible = withGhost && this.tracked !== null;
+    if (this.result) this.drawn.show(this.result.joints);
+    if (withGhost && this.tracked) this.ghost.show(this.tracked);
+  }
+
+  /** The skin that is drawn, by the bone that carries most of each vertex. */
+  vertices(): {joint: string; point: THREE.Vector3}[] {
+    const found: {joint: string; point: THREE.Vector3}[] = [];
+    this.drawn.root.updateMatrixWorld(true);
+    this.drawn.root.traverse((part) => {
+      if (!(part instanceof THREE.SkinnedMesh)) return;
+      const {skinIndex, skinWeight, position} = part.geometry.attributes;
+      for (let i = 0; i < position.count; ++i) {
+        const most = [0, 1, 2, 3].reduce((a, b) => (
+          skinWeight.getComponent(i, b) > skinWeight.getComponent(i, a) ? b : a));
+        found.push({joint: part.skeleton.bones[skinIndex.getComponent(i, most)].name,
+                    point: part.getVertexPosition(i, new THREE.Vector3())
+                      .applyMatrix4(part.matrixWorld)});
+      }
+    });
+    return found;
+  }
 }

@@ -5,10 +5,12 @@ import {GLTFLoader} from 'three/addons/loaders/GLTFLoader.js';
 import type {Nade, Placement, Surface} from '../../src/index.js';
 import type {Touchable} from '../../src/pointer.js';
 import {trianglesOf} from '../../src/three.js';
+import {Living} from './living.js';
 import {shadeByHand} from './stage.js';
 import type {View} from './stage.js';
 
 const MOST_TRIANGLES = 1e6;
+const MOST_BYTES = 2e8;
 const SMALLEST_M = 0.15;
 const LARGEST_M = 1.2;
 
@@ -17,6 +19,8 @@ export interface Thing extends Touchable {
   surface: Surface;
   placement: Placement;
   view: View;
+  /** What moves by itself, if it does. */
+  living?: Living;
   /** Where a hand that nobody moves strokes, at a time in seconds. */
   stroke(seconds: number): THREE.Vector3;
 }
@@ -54,22 +58,30 @@ export function ball(nade: Nade): Thing {
 }
 
 export async function dog(nade: Nade): Promise<Thing> {
-  const {scene} = await new GLTFLoader().loadAsync('dog.glb');
+  const {scene, animations} = await new GLTFLoader().loadAsync('dog.glb');
   dress(scene, () => new THREE.MeshPhysicalMaterial({
     vertexColors: true, roughness: 0.9, sheen: 0.35, sheenRoughness: 0.55,
     sheenColor: new THREE.Color('#f3d3ae')}));
   const {vertices, triangles} = trianglesOf(scene);
-  return thing(scene, nade.mesh(vertices, triangles), {},
-               {target: [0.03, 0.33, 0], distance: 1.55, around: 0.42, up: 0.4},
-               (seconds) => new THREE.Vector3(0.085 - 0.145 * Math.cos(1.15 * seconds), 0.44,
-                                              0.014 * Math.sin(2.3 * seconds)));
+  const surface = nade.mesh(vertices, triangles);
+  const found = thing(scene, surface, {},
+                      {target: [0.03, 0.33, 0], distance: 1.55, around: 0.42, up: 0.4},
+                      (seconds) => new THREE.Vector3(0.085 - 0.145 * Math.cos(1.15 * seconds), 0.44,
+                                                     0.014 * Math.sin(2.3 * seconds)));
+  found.living = new Living(scene, animations, surface);
+  return found;
 }
 
 /** A GLB file of somebody's own, on the floor, made smaller or larger to be within reach. */
 export async function own(nade: Nade, file: File): Promise<Thing> {
+  if (file.size > MOST_BYTES) {
+    throw new Error(`has ${Math.round(file.size / 1e6)} MB, more than ${MOST_BYTES / 1e6}`);
+  }
   const {scene} = await new GLTFLoader().parseAsync(await file.arrayBuffer(), '').catch(
     () => { throw new Error('expected a GLB file, whole and without Draco compression'); });
   const root = new THREE.Group().add(scene);
+  const count = trianglesIn(root);
+  if (count > MOST_TRIANGLES) throw new Error(`has ${count} triangles, more than ${MOST_TRIANGLES}`);
   const box = new THREE.Box3().setFromObject(root);
   const size = box.getSize(new THREE.Vector3());
   const most = Math.max(size.x, size.y, size.z);
@@ -79,9 +91,6 @@ export async function own(nade: Nade, file: File): Promise<Thing> {
   scene.position.sub(new THREE.Vector3(center.x, box.min.y, center.z));
   root.scale.setScalar(scale);
   const {vertices, triangles} = trianglesOf(root);
-  if (triangles.length / 3 > MOST_TRIANGLES) {
-    throw new Error(`has ${triangles.length / 3} triangles, more than ${MOST_TRIANGLES}`);
-  }
   dress(root, (before) => before);
   const high = scale * size.y;
   const wide = scale * Math.max(size.x, size.z);
@@ -89,6 +98,17 @@ export async function own(nade: Nade, file: File): Promise<Thing> {
                {target: [0, 0.6 * high, 0], distance: 0.6 + 1.9 * Math.max(high, wide), around: 0.42,
                 up: 0.42},
                circle(new THREE.Vector3(0, high, 0), 0.25 * scale * size.x, 0.1 * scale * size.z));
+}
+
+function trianglesIn(root: THREE.Object3D): number {
+  let sum = 0;
+  root.traverse((part) => {
+    if (!(part instanceof THREE.Mesh)) return;
+    const {index, attributes} = part.geometry as THREE.BufferGeometry;
+    const copies = part instanceof THREE.InstancedMesh ? part.count : 1;
+    sum += copies * Math.floor((index ?? attributes.position).count / 3);
+  });
+  return sum;
 }
 
 function dress(root: THREE.Object3D,

@@ -10,26 +10,37 @@ const BONES = [
   [16, 17], [17, 18], [18, 19], [19, 20], [21, 22], [22, 23], [23, 24], [24, 25],
 ];
 const TYPICAL_RADIUS_M = 0.011;
+const FAR_M = 0.4;
 
-const ends = {value: BONES.flatMap(() => [new THREE.Vector4(0, 9, 0, 0.01),
-                                          new THREE.Vector4(0, 9, 0, 0.01)])};
+const MOST_HANDS = 2;
+const MIDDLE_KNUCKLE = 12;
 
-/** Where the hand is that shades things. */
-export function shadeBy(hand: Hand): void {
-  BONES.flat().forEach((joint, i) => {
-    const at = JOINT_FLOATS * joint;
-    ends.value[i].set(hand[at + 4], hand[at + 5], hand[at + 6], hand[at + 7] || TYPICAL_RADIUS_M);
+const ends = {value: Array.from({length: 2 * MOST_HANDS * BONES.length}, () => new THREE.Vector4())};
+const middles = {value: Array.from({length: MOST_HANDS}, () => new THREE.Vector3())};
+const handCount = {value: 0};
+
+/** Where the hands are that shade things. */
+export function shadeBy(hands: readonly Hand[]): void {
+  handCount.value = hands.length;
+  hands.forEach((hand, which) => {
+    middles.value[which].fromArray(hand, JOINT_FLOATS * MIDDLE_KNUCKLE + 4);
+    BONES.flat().forEach((joint, i) => {
+      const at = JOINT_FLOATS * joint;
+      ends.value[2 * BONES.length * which + i].set(hand[at + 4], hand[at + 5], hand[at + 6],
+                                                  hand[at + 7] || TYPICAL_RADIUS_M);
+    });
   });
 }
 
 /**
- * Light that a hand keeps off a surface: each bone as a ball at its point nearest to what is shaded.
- * A shadow map alone leaves hands floating: under a palm no light comes from anywhere.
+ * Light that hands keep off a surface: each bone as a ball at its point nearest to what is shaded.
+ * A shadow map alone leaves hands floating: under a palm no light comes from anywhere. What is
+ * farther than FAR_M from a hand's middle is lit as if it were not there.
  */
 // Based on: Quilez. Sphere ambient occlusion. iquilezles.org.
 export function shadeByHand<Kind extends THREE.MeshStandardMaterial>(material: Kind): Kind {
   material.onBeforeCompile = (shader) => {
-    shader.uniforms.handEnds = ends;
+    Object.assign(shader.uniforms, {handEnds: ends, handMiddles: middles, handCount});
     shader.vertexShader = shader.vertexShader
       .replace('#include <common>', '#include <common>\nvarying vec3 vShadedAt;')
       .replace('#include <project_vertex>', `#include <project_vertex>
@@ -37,10 +48,12 @@ export function shadeByHand<Kind extends THREE.MeshStandardMaterial>(material: K
     shader.fragmentShader = shader.fragmentShader
       .replace('#include <common>', `#include <common>
         varying vec3 vShadedAt;
-        uniform vec4 handEnds[${2 * BONES.length}];
-        float lightPastHand(vec3 normalWorld) {
+        uniform vec4 handEnds[${2 * MOST_HANDS * BONES.length}];
+        uniform vec3 handMiddles[${MOST_HANDS}];
+        uniform int handCount;
+        float lightPastHand(int first, vec3 normalWorld) {
           float light = 1.0;
-          for (int i = 0; i < ${BONES.length}; ++i) {
+          for (int i = first; i < first + ${BONES.length}; ++i) {
             vec4 from = handEnds[2 * i];
             vec4 bone = handEnds[2 * i + 1] - from;
             float along = dot(vShadedAt - from.xyz, bone.xyz) / max(dot(bone.xyz, bone.xyz), 1e-8);
@@ -51,9 +64,18 @@ export function shadeByHand<Kind extends THREE.MeshStandardMaterial>(material: K
             light *= 1.0 - 0.9 * facing * ball.w * ball.w / (away * away);
           }
           return light;
+        }
+        float lightPastHands(vec3 normalWorld) {
+          float light = 1.0;
+          for (int i = 0; i < handCount; ++i) {
+            float near = 1.0 - smoothstep(${(0.6 * FAR_M).toFixed(2)}, ${FAR_M.toFixed(2)},
+                                          distance(handMiddles[i], vShadedAt));
+            if (near > 0.0) light *= mix(1.0, lightPastHand(${BONES.length} * i, normalWorld), near);
+          }
+          return light;
         }`)
       .replace('#include <aomap_fragment>', `#include <aomap_fragment>
-        float pastHand = lightPastHand(inverseTransformDirection(normal, viewMatrix));
+        float pastHand = lightPastHands(inverseTransformDirection(normal, viewMatrix));
         reflectedLight.indirectDiffuse *= pastHand;
         reflectedLight.directDiffuse *= mix(1.0, pastHand, 0.6);`);
   };
@@ -68,6 +90,14 @@ export interface View {
   up: number;
 }
 
+/** How well it is drawn, best first: a machine that is too slow for one goes on to the next. */
+const QUALITIES = [{mostPixels: 2, shadows: true}, {mostPixels: 1, shadows: true},
+                   {mostPixels: 0.4, shadows: false}];
+const SLOW_MS = 45;
+const SLOW_FRAMES = 6;
+/** So much of a high picture goes up. */
+const PANEL_SHARE = 0.08;
+
 const BACKGROUND = new THREE.Color('#e6ddd3');
 
 export class Stage {
@@ -75,9 +105,12 @@ export class Stage {
   readonly camera = new THREE.PerspectiveCamera(32, 1, 0.05, 20);
   readonly floor: THREE.Mesh;
   view: View = {target: [0, 0.3, 0], distance: 1.5, around: 0.3, up: 0.5};
-  private readonly renderer: THREE.WebGLRenderer;
+  readonly renderer: THREE.WebGLRenderer;
   private readonly haze = new THREE.Fog(BACKGROUND);
   private readonly key = new THREE.DirectionalLight('#fff4e6', 2.4);
+  private quality = 0;
+  private slow = 0;
+  private drawnAt = 0;
   private readonly shown = {target: new THREE.Vector3(0, 0.3, 0), distance: 1.6, around: 0, up: 0.4};
 
   constructor(private readonly canvas: HTMLCanvasElement) {
@@ -108,8 +141,33 @@ export class Stage {
     this.scene.add(this.floor);
   }
 
-  /** Looks from somewhere else; slowly, or at once. */
+  /** In a headset there is a table instead of a floor without an end; around it nothing, or the room. */
+  surround(by: 'page' | 'nothing' | 'room', table: THREE.Object3D): void {
+    this.floor.visible = by === 'page';
+    this.haze.near = 1.5;
+    this.haze.far = 6;
+    this.scene.background = by === 'room' ? null : BACKGROUND;
+    if (by === 'page') this.scene.remove(table);
+    else this.scene.add(table);
+  }
+
+  /** Where no headset decides that, it looks from somewhere else slowly. */
   draw(seconds: number): void {
+    this.keepUp();
+    if (!this.renderer.xr.isPresenting) this.look(seconds);
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  private keepUp(): void {
+    const now = performance.now();
+    this.slow = now - this.drawnAt > SLOW_MS ? this.slow + 1 : 0;
+    this.drawnAt = now;
+    if (this.slow < SLOW_FRAMES || this.quality === QUALITIES.length - 1) return;
+    this.slow = 0;
+    this.key.castShadow = QUALITIES[++this.quality].shadows;
+  }
+
+  private look(seconds: number): void {
     const {shown, view, camera} = this;
     const share = 1 - Math.exp(-seconds / 0.18);
     shown.target.lerp(new THREE.Vector3(...view.target), share);
@@ -129,7 +187,6 @@ export class Stage {
     camera.updateMatrixWorld();
     this.key.target.position.copy(shown.target);
     this.key.position.copy(shown.target).add(new THREE.Vector3(-0.55, 1.7, 0.85));
-    this.renderer.render(this.scene, camera);
   }
 
   settle(): void {
@@ -148,12 +205,15 @@ export class Stage {
 
   private fit(): void {
     const {clientWidth: width, clientHeight: height} = this.canvas;
-    const ratio = Math.min(devicePixelRatio, 2);
+    const ratio = Math.min(devicePixelRatio, QUALITIES[this.quality].mostPixels);
     const size = this.renderer.getSize(new THREE.Vector2());
     if (size.x === width && size.y === height && this.renderer.getPixelRatio() === ratio) return;
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
+    // A picture that is high has the panel in its lower part.
+    this.camera.setViewOffset(width, height, 0, width < height ? PANEL_SHARE * height : 0, width,
+                              height);
     this.camera.updateProjectionMatrix();
   }
 }
