@@ -126,7 +126,7 @@ TEST_F(FlattenSkin, NothingIsOnTheOtherSideOfAThinBoard) {
   for (const float thick_m : {0.001F, 0.003F, 0.008F}) {
     const auto board = test::block({0.3F, 0.5F * thick_m, 0.3F});
     const Object object(*board);
-    for (const double size : {0.6, 1.0, 1.15}) {
+    for (const double size : {0.8, 1.0, 1.15}) {
       const Skin skin = flattened(*mesh_, pressed(0.015, object, size), object);
       const auto lowest_y = [](const std::vector<Vec3f>& vertices) {
         float lowest = 1.0F;

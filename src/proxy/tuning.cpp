@@ -6,11 +6,9 @@ namespace nade {
 
 std::span<const TuningInfo> tuning_table() {
   static constexpr std::array kTable{
-      TuningInfo{
-          "place_stiffness", "1/m^2", 1000.0, 30000.0,
-          "holds the drawn joints, which share it, on to the tracked ones: fingers hang over "
-          "what holds up the palm",
-          &ProxyTuning::place_stiffness},
+      TuningInfo{"place_stiffness", "1/m^2", 1000.0, 30000.0,
+                 "shared by the joints: holds the drawn ones on to the tracked",
+                 &ProxyTuning::place_stiffness},
       TuningInfo{"knuckle_stiffness", "1/rad^2", 0.0, 10.0,
                  "a finger gives way at its knuckle first; the thumb lies down beside the hand",
                  &ProxyTuning::knuckle_stiffness},
