@@ -330,9 +330,10 @@ TEST_F(CliMistake, UnwritableOutputIsNamed) {
   std::filesystem::create_directory(path("folder"));
   for (const char* out : {"nowhere/out.jsonl", "file/out.jsonl", "folder"}) {
     SCOPED_TRACE(out);
+    expect_failure(nade(std::string("synth --object plane --duration 0.5 -o ") + out), out);
+    if (out == std::string("folder")) continue;  // of recordings
     expect_failure(nade(std::string("correct in.jsonl --object plane -o ") + out), out);
     expect_failure(nade(std::string("convert in.jsonl -o ") + out), out);
-    expect_failure(nade(std::string("synth --object plane --duration 0.5 -o ") + out), out);
   }
   EXPECT_EQ(files(), (std::vector<std::string>{"file", "folder", "in.jsonl"}));
   EXPECT_TRUE(std::filesystem::is_empty(path("folder")));
