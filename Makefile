@@ -2,7 +2,7 @@
 # neither installed nor fetched again.
 .NOTPARALLEL:
 .DEFAULT_GOAL := help
-.PHONY: help demo test check check-scale build bench asan fuzz tsan test-headset tidy format format-check python web web-test web-serve install install-all clean setup setup-web
+.PHONY: help demo test check check-scale build bench asan fuzz tsan test-headset test-windows tidy format format-check python web web-test web-serve install install-all clean setup setup-web setup-windows
 
 PREFIX ?= /usr/local
 SECONDS ?= 60
@@ -18,7 +18,7 @@ demo: setup ## Strokes on three objects, corrected and measured: a table under b
 test: setup ## Style, the optimised build, and all its tests
 	@scripts/test
 
-check: setup ## What takes longer: clang-tidy, sanitizers, a Slurm cluster, and Debian 13 with g++ 14 and a headset (root)
+check: setup-windows ## What takes longer: clang-tidy, sanitizers, a Slurm cluster, Windows, and Debian 13 with g++ 14 and a headset (root)
 	@scripts/check
 
 check-scale: setup ## workflows/snakemake on this machine and on a Slurm cluster on it (root); 680 MB of packages
@@ -44,6 +44,10 @@ tsan: setup ## Two hands on one mesh, on two threads, under the thread sanitizer
 
 test-headset: setup ## All of it in a Debian 13 system, with g++ 14, and `nade xr` on the OpenXR runtime there (root)
 	@scripts/test_xr --all
+
+test-windows: setup-windows ## The C library for Windows, built here and run with wine
+	@scripts/build release
+	@scripts/test_windows
 
 tidy: setup ## clang-tidy over our sources
 	@scripts/build release
@@ -88,3 +92,6 @@ setup:
 
 setup-web: setup
 	@scripts/install_packages --web
+
+setup-windows: setup
+	@scripts/install_packages --windows

@@ -9,7 +9,9 @@ namespace nade::c_abi {
 
 /// Writes the sentence of a call that fails, gives it to the program's callback, and returns
 /// `status`. Does not allocate.
-#if defined(__GNUC__)
+#if defined(__MINGW32__)
+__attribute__((format(gnu_printf, 2, 3)))  // where printf stands for that of Windows' C library
+#elif defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif
 nade_status
