@@ -2,7 +2,7 @@
 # neither installed nor fetched again.
 .NOTPARALLEL:
 .DEFAULT_GOAL := help
-.PHONY: help demo test check check-scale build bench asan fuzz tsan test-headset test-windows tidy format format-check python web web-test web-serve install install-all clean setup setup-web setup-windows
+.PHONY: help demo test check check-scale build bench asan fuzz tsan test-headset test-windows tidy format format-check python web web-test web-page-test web-serve install install-all clean setup setup-web setup-windows
 
 PREFIX ?= /usr/local
 SECONDS ?= 60
@@ -18,7 +18,7 @@ demo: setup ## Strokes on three objects, corrected and measured: a table under b
 test: setup ## Style, the optimised build, and all its tests
 	@scripts/test
 
-check: setup-windows ## What takes longer: clang-tidy, sanitizers, a Slurm cluster, Windows, and Debian 13 with g++ 14 and a headset (root)
+check: setup-windows setup-web ## What takes longer: clang-tidy, sanitizers, browsers, a Slurm cluster, Windows, Debian 13 with g++ 14 and a headset (root)
 	@scripts/check
 
 check-scale: setup ## workflows/snakemake on this machine and on a Slurm cluster on it (root); 680 MB of packages
@@ -71,6 +71,9 @@ web: setup-web ## The npm package and the page, for browsers, in build/web
 web-test: setup-web ## The package's tests, in Node: against the C library, memory, sizes
 	@scripts/web package
 	@scripts/web test
+
+web-page-test: web ## The page's tests, in a browser: needs chromium
+	@scripts/web test-page
 
 web-serve: web ## Shows the page on this machine, and prints its address
 	@scripts/web serve

@@ -157,7 +157,7 @@ test('objects of one’s own: good, broken and huge', async () => {
 test('a headset: both hands, lost and found, and a panel to touch', async (t) => {
   const {page, picture, done} = await browser.open({viewport: {width: 400, height: 300}, script: headset});
   assert.ok(await page.isHidden('#no-headset'));
-  await page.click('text=Enter VR');
+  await page.press('text=Enter VR', 'Enter');
   await until(page, () => window.nadePage.tableMatrix());
   const rest = {left: nade.restHand('left'), right: nade.restHand('right')};
   const put = (side, x, y, z) => page.evaluate(([s, joints]) => window.inject(s, joints), [
@@ -259,7 +259,7 @@ test('a headset that does not start, and a camera that is refused', async () => 
     navigator.mediaDevices.getUserMedia = () => Promise.reject(new Error('Permission denied'));
   };
   const {page, done} = await browser.open({script: [...headset, refused]});
-  await page.click('text=Enter VR');
+  await page.press('text=Enter VR', 'Enter');
   assert.equal(await notice(page), 'The headset did not start: no sensors');
   assert.equal((await hand(page)).status, 'corrected');
   await choose(page, 'sources', 'camera');
