@@ -341,10 +341,11 @@ TEST_F(CliMistake, UnwritableOutputIsNamed) {
 
 TEST_F(CliMistake, ARecordingIsNotWrittenUnderAnotherKindsName) {
   make_stroke("in.jsonl");
-  for (const char* out : {"out.png", "out.json", "out.obj.gz", "out.jsonl.zip", "out.glb.gz"}) {
+  for (const char* out :
+       {"out.png", "out.json", "out.obj.gz", "out.jsonl.zip", "out.glb.gz", "out.mcap.gz"}) {
     const std::string expected =
-        std::string("--output: expected a name ending in .jsonl, .jsonl.gz, .csv, .csv.gz or ") +
-        ".glb, found '" + out;
+        std::string("--output: expected a name ending in .jsonl, .jsonl.gz, .csv, .csv.gz, ") +
+        ".mcap or .glb, found '" + out;
     expect_misuse(nade(std::string("correct in.jsonl --object plane -o ") + out), expected);
     expect_misuse(nade(std::string("convert in.jsonl -o ") + out), expected);
     expect_misuse(nade(std::string("synth --object plane -o ") + out), expected);

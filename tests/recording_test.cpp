@@ -237,7 +237,7 @@ TEST_F(Recording, WhatIsNoRecordingIsNamed) {
       {"{\"format\":\"nade-recording\"}\n", "found none"},
       {"{\"format\":\"nade-recording\",\"ver", "line 1: expected a recording's header"},
       {"{\"format\":\"nade-recording\",\"version\":1,\"source\":3}\n", "line 1: source: expected"},
-      {R"({"frames":[["packed"],[1]]})", "packed"},
+      {R"({"frames":[["packed"],[1]]})", "frames[1]: expected the \"hands\""},
       {R"({"frames":[[0,1,2]],"schema":[]})", "expected \"schema\" before \"frames\""},
   };
   for (const auto& [text, part] : cases) {

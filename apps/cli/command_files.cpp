@@ -52,7 +52,8 @@ Status check_apart(const std::vector<NamedFile>& outputs, const std::vector<Name
 bool is_recording_ending(const std::string& name) {
   const std::string ending = content_ending_of(name);
   return ending == ".jsonl" || ending == ".csv" ||
-         (ending == ".glb" && OutputFile::encoding_of(name) == OutputFile::Encoding::plain);
+         ((ending == ".glb" || ending == ".mcap") &&
+          OutputFile::encoding_of(name) == OutputFile::Encoding::plain);
 }
 
 Status check_recording_name(const std::string& option, const std::string& name) {

@@ -23,7 +23,7 @@ struct NamedFile {
                                  const std::vector<NamedFile>& inputs);
 
 /// What a recording's name may end in, in words, and whether one does.
-inline constexpr const char* kRecordingEndings = ".jsonl, .jsonl.gz, .csv, .csv.gz or .glb";
+inline constexpr const char* kRecordingEndings = ".jsonl, .jsonl.gz, .csv, .csv.gz, .mcap or .glb";
 [[nodiscard]] bool is_recording_ending(const std::string& name);
 
 /// Refuses a recording's name with an ending that says it is something else. One without an

@@ -103,9 +103,10 @@ Status run_convert(const ConvertArguments& arguments) {
 }  // namespace
 
 void add_convert(CLI::App& app, Action& action) {
-  CLI::App* const command = app.add_subcommand(
-      "convert",
-      "Turns a recording of any known format into ours, a table (.csv) or a model (.glb)");
+  CLI::App* const command = app.add_subcommand("convert",
+                                               "Turns a recording of any known format into ours, a "
+                                               "table (.csv), messages for Foxglove (.mcap) "
+                                               "or a model (.glb)");
   const auto arguments = std::make_shared<ConvertArguments>();
   add_batch_options(*command, arguments->files);
   add_model_choice(*command, arguments->model);

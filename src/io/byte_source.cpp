@@ -11,10 +11,21 @@
 #include <cerrno>
 #include <cstring>
 
+#include "lz_text.h"
+
 namespace nade::io {
 namespace {
 
 constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
+constexpr std::size_t kLzLookAhead = 64;
+
+/// Text of hands that move becomes ten times smaller, of one that lies still a hundred times.
+constexpr std::size_t kMostRatio = 200;
+constexpr std::size_t kMostUnpacked = std::size_t{64} << 20;  // before that is looked at
+
+bool is_bomb(std::size_t unpacked, std::size_t packed) {
+  return unpacked > kMostUnpacked && unpacked / kMostRatio > packed;
+}
 
 Error cannot_open(const std::string& path, int error_number) {
   if (error_number == ENOENT) {
@@ -33,9 +44,6 @@ class ByteSource::Unpacker {
  public:
   /// How a read ended.
   enum class End { more, whole, cut_off, damaged, bomb, unreadable };
-
-  /// Text of hands that move becomes ten times smaller, of one that lies still a hundred times.
-  static constexpr std::size_t kMostRatio = 200;
 
   explicit Unpacker(int descriptor) : descriptor_(descriptor), input_(kBufferBytes / 2) {}
   Unpacker(const Unpacker&) = delete;
@@ -76,7 +84,7 @@ class ByteSource::Unpacker {
       if (code != Z_OK && code != Z_STREAM_END) return End::damaged;
       count = room - stream_.avail_out;
       unpacked_ += count;
-      if (unpacked_ > kMostUnpacked && unpacked_ / kMostRatio > packed_) return End::bomb;
+      if (is_bomb(unpacked_, packed_)) return End::bomb;
       if (count > 0) return End::more;
     }
   }
@@ -117,13 +125,25 @@ class ByteSource::Unpacker {
 
   static constexpr std::array<Bytef, 2> kMagic{0x1F, 0x8B};
   static constexpr int kGzipWindow = 15 + 16;  // zlib's: the largest window, with gzip around it
-  static constexpr std::size_t kMostUnpacked = std::size_t{64} << 20;  // before that is looked at
   int descriptor_;
   std::size_t packed_ = 0;
   std::size_t unpacked_ = 0;
   std::vector<Bytef> input_;
   z_stream stream_{};
   Form form_ = Form::unknown;
+};
+
+/// LZString taken off what comes out of the unpacker.
+struct ByteSource::LzLayer {
+  explicit LzLayer(std::string_view beginning) : bytes(beginning), packed(bytes) {}
+
+  LzText lz;
+  std::string bytes;
+  std::string_view packed;  ///< of them what is not yet unpacked
+  std::string text;
+  std::size_t given = 0;  ///< of the text
+  std::size_t packed_count = 0;
+  std::size_t unpacked_count = 0;
 };
 
 ByteSource::ByteSource(std::string name, int descriptor)
@@ -148,6 +168,11 @@ Result<ByteSource> ByteSource::open(const std::string& path) {
   ByteSource source(std::move(name), descriptor);
   if (source.peek(kByteOrderMark.size()) == kByteOrderMark) source.begin_ += kByteOrderMark.size();
   if (source.failure_) return *source.failure_;
+  if (!looks_like_lz_text(source.peek(kLzLookAhead))) return source;
+  source.lz_ = std::make_unique<LzLayer>(
+      std::string_view(source.buffer_.data() + source.begin_, source.end_ - source.begin_));
+  source.lz_->packed_count = source.end_ - source.begin_;
+  source.begin_ = source.end_ = 0;
   return source;
 }
 
@@ -159,31 +184,80 @@ bool ByteSource::fill() {
     end_ -= begin_;
     begin_ = 0;
   }
+  char* const to = buffer_.data() + end_;
+  const std::size_t room = buffer_.size() - end_;
+  const std::size_t count = lz_ ? read_lz(to, room) : read_unpacked(to, room);
+  end_ += count;
+  return count > 0;
+}
+
+std::size_t ByteSource::read_unpacked(char* to, std::size_t room) {
   std::size_t count = 0;
-  switch (unpacker_->read(buffer_.data() + end_, buffer_.size() - end_, count)) {
+  switch (unpacker_->read(to, room, count)) {
     case Unpacker::End::more:
-      end_ += count;
-      return true;
+      return count;
     case Unpacker::End::whole:
-      return false;
+      break;
     case Unpacker::End::cut_off:
       cut_off_ = true;
-      return false;
+      break;
     case Unpacker::End::damaged:
       failure_ = Error{ErrorCode::unreadable,
                        fmt::format("{}: expected whole gzip data, found them damaged", name_)};
-      return false;
+      break;
     case Unpacker::End::bomb:
       failure_ = Error{ErrorCode::bad_format,
                        fmt::format("{}: expected a recording, found gzip data that unpack to more "
                                    "than {} times their size",
-                                   name_, Unpacker::kMostRatio)};
-      return false;
+                                   name_, kMostRatio)};
+      break;
     case Unpacker::End::unreadable:
       failure_ = cannot_open(name_, errno);
-      return false;
+      break;
   }
-  return false;
+  return 0;
+}
+
+std::size_t ByteSource::read_lz(char* to, std::size_t room) {
+  LzLayer& layer = *lz_;
+  const auto fail = [&](ErrorCode code, const std::string& sentence) {
+    failure_ = Error{code, fmt::format("{}: {}", name_, sentence)};
+    return std::size_t{0};
+  };
+  while (layer.given == layer.text.size()) {
+    layer.text.clear();
+    layer.given = 0;
+    if (layer.packed.empty()) {
+      layer.bytes.resize(kBufferBytes);
+      layer.bytes.resize(read_unpacked(layer.bytes.data(), layer.bytes.size()));
+      layer.packed = layer.bytes;
+      layer.packed_count += layer.bytes.size();
+      if (layer.bytes.empty()) {
+        if (!failure_ && !layer.lz.whole()) cut_off_ = true;
+        return 0;
+      }
+    }
+    const LzText::End end = layer.lz.read(layer.packed, layer.text, kBufferBytes);
+    layer.unpacked_count += layer.text.size();
+    if (end == LzText::End::damaged) {
+      return fail(ErrorCode::unreadable, "expected whole LZString data, found them damaged");
+    }
+    if (end == LzText::End::too_many_words) {
+      return fail(ErrorCode::bad_format,
+                  fmt::format("expected LZString data of at most {} words, found more",
+                              LzText::kMostWords));
+    }
+    if (is_bomb(layer.unpacked_count, layer.packed_count)) {
+      return fail(ErrorCode::bad_format,
+                  fmt::format("expected a recording, found LZString data that unpack to more than "
+                              "{} times their size",
+                              kMostRatio));
+    }
+  }
+  const std::size_t count = std::min(room, layer.text.size() - layer.given);
+  std::copy_n(layer.text.data() + layer.given, count, to);
+  layer.given += count;
+  return count;
 }
 
 std::string_view ByteSource::peek(std::size_t count) {

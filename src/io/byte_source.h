@@ -23,8 +23,9 @@ struct Line {
   bool terminated;        ///< whether a line end followed
 };
 
-/// The bytes of a file or of standard input, gzip taken off where its magic is found, a byte
-/// order mark skipped. Of gzip there may be several members, and zeros after the last.
+/// The bytes of a file or of standard input, gzip taken off where its magic is found, LZString
+/// where it has packed JSON, a byte order mark skipped. Of gzip there may be several members, and
+/// zeros after the last.
 class ByteSource {
  public:
   [[nodiscard]] static Result<ByteSource> open(const std::string& path);
@@ -45,18 +46,22 @@ class ByteSource {
   /// The next line; none at the end or after a failure. A line over `kLongestLine` is a failure.
   [[nodiscard]] std::optional<Line> read_line();
 
-  /// Whether the gzip stream stopped before its end.
+  /// Whether the gzip stream, or LZString's, stopped before its end.
   [[nodiscard]] bool cut_off() const { return cut_off_; }
   [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
 
  private:
   class Unpacker;
+  struct LzLayer;
 
   ByteSource(std::string name, int descriptor);
   bool fill();
+  std::size_t read_unpacked(char* to, std::size_t room);
+  std::size_t read_lz(char* to, std::size_t room);
 
   std::string name_;
   std::unique_ptr<Unpacker> unpacker_;
+  std::unique_ptr<LzLayer> lz_;  ///< where LZString has packed what comes out of it
   std::vector<char> buffer_;
   std::size_t begin_ = 0;
   std::size_t end_ = 0;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "recording_limits.h"
@@ -44,6 +45,16 @@ std::optional<LeapFinger> finger_of(const Json& pointable) {
   return LeapFinger{*mcp, *pip, *dip, *tip};
 }
 
+/// Which finger a pointable is. Packed frames have no word of it but in the ids: ten times the
+/// hand's, and the finger's number.
+std::optional<double> type_of(const Json& pointable) {
+  const std::optional<double> type = finite_number(pointable, "type");
+  const std::optional<double> id = finite_number(pointable, "id");
+  const std::optional<double> hand = finite_number(pointable, "handId");
+  if (type || !id || !hand) return type;
+  return *id - 10.0 * *hand;
+}
+
 /// The fingers of the hand with this id; none where one of the five is missing.
 std::optional<std::array<LeapFinger, kDigitCount>> fingers_of(const Json& frame, const Json& id) {
   std::array<std::optional<LeapFinger>, kDigitCount> found{};
@@ -51,7 +62,7 @@ std::optional<std::array<LeapFinger, kDigitCount>> fingers_of(const Json& frame,
   if (pointables == frame.end() || !pointables->is_array()) return std::nullopt;
   for (const Json& pointable : *pointables) {
     if (!pointable.is_object() || pointable.value("handId", Json()) != id) continue;
-    const std::optional<double> type = finite_number(pointable, "type");
+    const std::optional<double> type = type_of(pointable);
     if (!type || !(*type >= 0.0) || !(*type < double{kDigitCount})) continue;
     found[static_cast<std::size_t>(*type)] = finger_of(pointable);
   }
@@ -61,6 +72,26 @@ std::optional<std::array<LeapFinger, kDigitCount>> fingers_of(const Json& frame,
     fingers[i] = *found[i];
   }
   return fingers;
+}
+
+/// An object of a packed frame, a list of such, or what is no array as it is: `keys` are names, or
+/// objects of one name with the keys of its value; keys in an array of their own are those of every
+/// element.
+Json unpacked(const Json& keys, Json& values) {
+  if (!values.is_array() || !keys.is_array()) return std::move(values);
+  if (!keys.empty() && keys.front().is_array()) {
+    Json list = Json::array();
+    for (Json& value : values) list.push_back(unpacked(keys.front(), value));
+    return list;
+  }
+  Json object = Json::object();
+  for (std::size_t i = 0; i < std::min(keys.size(), values.size()); ++i) {
+    const Json& key = keys[i];
+    if (key.is_string()) object[key.get<std::string>()] = std::move(values[i]);
+    if (!key.is_object() || key.empty()) continue;
+    object[key.begin().key()] = unpacked(key.begin().value(), values[i]);
+  }
+  return object;
 }
 
 std::optional<Handedness> side_of(const Json& hand) {
@@ -91,9 +122,19 @@ void LeapImport::leave_out(Oddity oddity, const std::string& what) {
   warnings_.add(oddity, fmt::format("{}: {}", place(), what));
 }
 
+Result<std::optional<Json>> LeapImport::next_frame() {
+  Result<std::optional<Json>> json = frames_.next(warnings_);
+  if (!json || !*json || !(*json)->is_array()) return json;
+  if (!keys_) {
+    keys_ = std::move(**json);
+    return next_frame();
+  }
+  return std::optional<Json>(unpacked(*keys_, **json));
+}
+
 Result<std::optional<RecordedFrame>> LeapImport::next() {
   while (true) {
-    const Result<std::optional<Json>> json = frames_.next(warnings_);
+    const Result<std::optional<Json>> json = next_frame();
     if (!json) return json.error();
     if (!*json) return std::optional<RecordedFrame>();
     if (!(*json)->is_object()) {

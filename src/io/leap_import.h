@@ -14,7 +14,7 @@
 namespace nade::io {
 
 /// Reads raw frames of a Leap Motion v2 as LeapJS has them: an object with an array "frames", or
-/// the array itself.
+/// the array itself; frames may be packed as LeapJS Playback does it.
 class LeapImport {
  public:
   [[nodiscard]] static Result<LeapImport> open(ByteSource source);
@@ -28,6 +28,7 @@ class LeapImport {
  private:
   explicit LeapImport(ByteSource source);
 
+  Result<std::optional<Json>> next_frame();
   Result<RecordedFrame> read_frame(const Json& frame);
   Status read_hand(const Json& frame, std::size_t hand_index, RecordedFrame& result);
   void leave_out(Oddity oddity, const std::string& what);
@@ -38,6 +39,7 @@ class LeapImport {
   Warnings warnings_;
   HandIntake intake_{1e-6};
   std::optional<std::int64_t> last_time_ns_;
+  std::optional<Json> keys_;  ///< of packed frames
 };
 
 }  // namespace nade::io

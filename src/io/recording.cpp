@@ -12,6 +12,7 @@
 #include "frame_sketch.h"
 #include "json_text.h"
 #include "leap_import.h"
+#include "mcap_write.h"
 #include "mediapipe_import.h"
 #include "nade/io/output_file.h"
 #include "recording_lines.h"
@@ -77,10 +78,12 @@ Result<AnySource> recognised(ByteSource source) {
       std::isdigit(static_cast<unsigned char>(frames_begin[2])) != 0) {
     return opened<WebxrImport>(std::move(source));
   }
-  if (frames_begin.starts_with("[[")) {
+  // The packed form of LeapJS Playback.
+  if (frames_begin.starts_with("[[")) return opened<LeapImport>(std::move(source));
+  if (sketch.find("hand_poses") != nullptr) {
     return Error{ErrorCode::bad_format,
-                 fmt::format("{}: expected raw LeapJS frames, each an object, found the packed "
-                             "form of LeapJS Playback, which has to be unpacked first",
+                 fmt::format("{}: expected places of joints, found poses of a hand model (HOT3D), "
+                             "whose joints only that model gives",
                              source.name())};
   }
   if (sketch.members.empty()) return unknown_form(source.name(), "none of them");
@@ -144,6 +147,7 @@ struct RecordingWriter::Impl {
   fmt::memory_buffer buffer;
   bool is_table = false;
   std::optional<io::AnimatedHands> model;
+  std::optional<io::McapRecording> log;
   std::optional<std::int64_t> last_time_ns;
 
   Status append_frame(const RecordedFrame& frame) {
@@ -153,8 +157,17 @@ struct RecordingWriter::Impl {
       model->add(frame);
       return ok_status();
     }
+    if (log) {
+      const Status added = log->add(frame);
+      if (added) append_log();
+      return added;
+    }
     is_table ? io::append_csv_frame(frame, buffer) : io::append_frame(frame, buffer);
     return ok_status();
+  }
+  void append_log() {
+    const std::string bytes = log->take();
+    buffer.append(bytes.data(), bytes.data() + bytes.size());
   }
   Status write_buffer() {
     Status status = file.write({buffer.data(), buffer.size()});
@@ -180,11 +193,16 @@ Result<RecordingWriter> RecordingWriter::create(const std::string& path,
   }
   Result<OutputFile> file = OutputFile::create(path, OutputFile::encoding_of(path), appears);
   if (!file) return file.error();
-  auto impl = std::make_unique<Impl>(Impl{path == "-" ? "standard output" : path,
-                                          std::move(file).value(), fmt::memory_buffer(),
-                                          io::names_a_table(path), std::move(hands), std::nullopt});
+  auto impl = std::make_unique<Impl>(
+      Impl{path == "-" ? "standard output" : path, std::move(file).value(), fmt::memory_buffer(),
+           io::names_a_table(path), std::move(hands), std::nullopt, std::nullopt});
   if (impl->model) return RecordingWriter(std::move(impl));
-  impl->is_table ? io::append_csv_names(impl->buffer) : io::append_header(header, impl->buffer);
+  if (io::names_a_log(path)) {
+    impl->log.emplace(header);
+    impl->append_log();
+  } else {
+    impl->is_table ? io::append_csv_names(impl->buffer) : io::append_header(header, impl->buffer);
+  }
   const Status status = impl->write_buffer();
   if (!status) return status.error();
   return RecordingWriter(std::move(impl));
@@ -220,6 +238,12 @@ Status RecordingWriter::finish() {
       return Error{bytes.error().code, fmt::format("{}: {}", impl_->name, bytes.error().message)};
     }
     const Status written = impl_->file.write(*bytes);
+    if (!written) return written;
+  }
+  if (impl_->log) {
+    impl_->log->finish();
+    impl_->append_log();
+    const Status written = impl_->write_buffer();
     if (!written) return written;
   }
   return impl_->file.finish();

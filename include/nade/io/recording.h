@@ -93,11 +93,11 @@ struct ModelOptions {
 };
 
 /// Writes our format, or, where the path ends in ".csv" or ".csv.gz", a table with a row for each
-/// hand of a frame, or, where it ends in ".glb", a glTF model of the skinned hands that is animated
-/// (docs/formats.md): gzip where it ends in ".gz", standard output for "-". A model is written in
-/// `finish`, and takes 700 bytes of memory for each hand of a frame until then. The file appears
-/// under its name, whole, in `finish`, and not at all if that is never reached; or, where asked
-/// for, at once.
+/// hand of a frame, or, where it ends in ".mcap", messages for Foxglove, or, where it ends in
+/// ".glb", a glTF model of the skinned hands that is animated (docs/formats.md): gzip where it ends
+/// in ".gz", standard output for "-". A model is written in `finish`, and takes 700 bytes of memory
+/// for each hand of a frame until then. The file appears under its name, whole, in `finish`, and
+/// not at all if that is never reached; or, where asked for, at once.
 class RecordingWriter {
  public:
   [[nodiscard]] static Result<RecordingWriter> create(const std::string& path,
