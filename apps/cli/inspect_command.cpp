@@ -2,11 +2,13 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
 
 #include "batch.h"
+#include "command_files.h"
 #include "commands.h"
 #include "console.h"
 #include "inspection.h"
@@ -14,6 +16,9 @@
 #include "nade/io/mesh_file.h"
 #include "nade/io/output_file.h"
 #include "nade/io/recording.h"
+#if defined(NADE_CLI_STUDY)
+#include "recording_plot.h"
+#endif
 
 namespace nade::cli {
 namespace {
@@ -24,6 +29,7 @@ struct InspectArguments {
   std::vector<std::string> inputs;
   Report report = Report::text;
   std::size_t jobs = 0;
+  std::optional<std::string> plot;
 };
 
 using Inspected = nlohmann::ordered_json;
@@ -36,7 +42,9 @@ std::string json_of(const Inspected& inspected, int indent) {
   return inspected.dump(indent, ' ', false, Inspected::error_handler_t::replace) + "\n";
 }
 
-Result<Inspected> inspect(const std::string& input) {
+/// `also` gets each frame of a recording.
+template <class Also>
+Result<Inspected> inspect(const std::string& input, Also&& also) {
   if (has_mesh_ending(input)) return inspect_model(input);
   Result<RecordingReader> reader = RecordingReader::open(input);
   if (!reader) return reader.error();
@@ -46,9 +54,50 @@ Result<Inspected> inspect(const std::string& input) {
     if (!frame) return frame.error();
     if (!*frame) break;
     inspection.add(**frame);
+    also(**frame);
   }
   return as_json(inspection, *reader);
 }
+
+Result<Inspected> inspect(const std::string& input) {
+  return inspect(input, [](const RecordedFrame&) {});
+}
+
+#if defined(NADE_CLI_STUDY)
+Status check_plot(const InspectArguments& arguments) {
+  std::error_code ignored;
+  if (arguments.inputs.size() > 1 ||
+      std::filesystem::is_directory(arguments.inputs.front(), ignored) ||
+      has_mesh_ending(arguments.inputs.front())) {
+    return misuse("--plot: expected one recording");
+  }
+  const std::string ending = ending_of(*arguments.plot);
+  if (ending == ".svg" || ending == ".pdf" || ending == ".png") return ok_status();
+  return misuse(fmt::format("--plot: expected a name ending in .svg, .pdf or .png, found '{}'",
+                            *arguments.plot));
+}
+
+Result<Inspected> inspect_and_plot(const InspectArguments& arguments) {
+  const Status checked = check_plot(arguments);
+  if (!checked) return checked.error();
+  const std::string& input = arguments.inputs.front();
+  const Status apart = check_apart({{"--plot", arguments.plot}}, {{"IN", input}});
+  if (!apart) return apart.error();
+  RecordingPlot plot;
+  Result<Inspected> report = inspect(input, [&](const RecordedFrame& frame) { plot.add(frame); });
+  if (!report) return report;
+  const std::string title = input == kStandardStream
+                                ? std::string("standard input")
+                                : std::filesystem::path(input).filename().string();
+  const Status drawn = plot.draw(title, *arguments.plot);
+  if (!drawn) return drawn.error();
+  return report;
+}
+#else
+Result<Inspected> inspect_and_plot(const InspectArguments& arguments) {
+  return inspect(arguments.inputs.front());
+}
+#endif
 
 /// Files as they are, and the recordings of folders.
 Result<std::vector<std::string>> files_of(const std::vector<std::string>& inputs) {
@@ -104,10 +153,11 @@ Status inspect_many(const InspectArguments& arguments) {
 Status run_inspect(const InspectArguments& arguments) {
   const std::string& input = arguments.inputs.front();
   std::error_code ignored;
-  if (arguments.inputs.size() > 1 || std::filesystem::is_directory(input, ignored)) {
+  if (!arguments.plot &&
+      (arguments.inputs.size() > 1 || std::filesystem::is_directory(input, ignored))) {
     return inspect_many(arguments);
   }
-  const Result<Inspected> report = inspect(input);
+  const Result<Inspected> report = arguments.plot ? inspect_and_plot(arguments) : inspect(input);
   if (!report) return report.error();
   return write_whole("-", arguments.report == Report::json
                               ? json_of(*report, 2)
@@ -128,6 +178,12 @@ void add_inspect(CLI::App& app, Action& action) {
   command->add_flag_callback(
       "--json", [arguments] { arguments->report = Report::json; },
       "prints one JSON object and nothing else; of several files a line each");
+#if defined(NADE_CLI_STUDY)
+  command
+      ->add_option("--plot", arguments->plot,
+                   "draws a page about one recording, with gnuplot: .svg, .pdf or .png")
+      ->type_name("FILE");
+#endif
   add_jobs_option(*command, arguments->jobs);
   command->callback(
       [&action, arguments] { action = [arguments] { return run_inspect(*arguments); }; });
