@@ -2,8 +2,10 @@
 // a table, once a frame. Where this prints, a program with a swapchain draws.
 //   openxr_loop [FRAMES [METRES]]    the table's height above the floor
 
+// NOLINTBEGIN(readability-identifier-naming): OpenXR's names
 #define XR_USE_GRAPHICS_API_OPENGL
 #define XR_USE_PLATFORM_EGL
+// NOLINTEND(readability-identifier-naming)
 #include <EGL/egl.h>
 #include <openxr/openxr.h>
 #include <openxr/openxr_platform.h>
