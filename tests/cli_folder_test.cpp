@@ -65,7 +65,7 @@ std::string in_millimetres(const std::vector<std::string>& lines) {
   for (std::size_t i = 1; i < lines.size(); ++i) {
     auto frame = nlohmann::json::parse(lines[i]);
     for (auto& joint : frame["right"]["joints"]) {
-      for (const std::size_t length : {0, 1, 2, 7})
+      for (const std::size_t length : {0U, 1U, 2U, 7U})
         joint[length] = 1e3 * joint[length].get<double>();
     }
     text += frame.dump() + "\n";
