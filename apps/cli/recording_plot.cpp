@@ -4,14 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string_view>
 #include <system_error>
 
-#include "nade/io/plain_text.h"
+#include "nade/io/output_file.h"
+#include "nade/io/passing_folder.h"
 #include "nade/study/figure.h"
 
 namespace nade::cli {
@@ -42,16 +42,6 @@ double bend_deg(const HandPose& hand, Digit digit) {
   return sum;
 }
 
-/// A text of gnuplot's, in which nothing is replaced.
-std::string in_quotes(std::string_view text) {
-  std::string result = "'";
-  for (const char character : plain_text(text)) {
-    if (character == '\'') result += '\'';
-    result += character;
-  }
-  return result + "'";
-}
-
 /// A line of a panel.
 struct Curve {
   std::size_t value;
@@ -74,8 +64,8 @@ constexpr std::array<Curve, 1> kTrembles{{{kTremble, "#0b5cad", ""}}};
 /// Means, over the range that was passed through where many frames make one point.
 template <std::size_t N>
 std::string panel(std::size_t side, std::string_view label, const std::array<Curve, N>& curves) {
-  std::string text =
-      fmt::format("set label 10 {} at graph 0, graph 1.1 left\nplot \\\n", in_quotes(label));
+  std::string text = fmt::format("set label 10 {} at graph 0, graph 1.1 left\nplot \\\n",
+                                 study::gnuplot_string(label));
   std::string_view separator;
   for (const Curve& curve : curves) {
     const std::size_t mean = 2 + 3 * curve.value;
@@ -84,7 +74,7 @@ std::string panel(std::size_t side, std::string_view label, const std::array<Cur
         "fillstyle transparent solid 0.25 noborder notitle, \\\n"
         "  DATA index 'hand_{1}' using 1:{5} with lines linewidth 1.3 linecolor rgb '{4}' "
         "title {6}",
-        separator, side, mean + 1, mean + 2, curve.colour, mean, in_quotes(curve.name));
+        separator, side, mean + 1, mean + 2, curve.colour, mean, study::gnuplot_string(curve.name));
     separator = ", \\\n";
   }
   return text + "\n";
@@ -285,11 +275,11 @@ std::string RecordingPlot::script(const std::string& title) const {
         fmt::format("each point is the mean of {} frames, pale from the least to the greatest",
                     frames_a_span_));
   }
-  text += fmt::format("set label 1 {} at screen {:.4f},{:.4f} left font ',17'\n", in_quotes(title),
-                      kLeft / width, 1.0 - 24.0 / kHeight);
+  text += fmt::format("set label 1 {} at screen {:.4f},{:.4f} left font ',17'\n",
+                      study::gnuplot_string(title), kLeft / width, 1.0 - 24.0 / kHeight);
   for (std::size_t i = 0; i < remarks.size(); ++i) {
     text += fmt::format("set label {} {} at screen {:.4f},{:.4f} left textcolor rgb '#505050'\n",
-                        2 + i, in_quotes(remarks[i]), kLeft / width,
+                        2 + i, study::gnuplot_string(remarks[i]), kLeft / width,
                         1.0 - (50.0 + 20.0 * static_cast<double>(i)) / kHeight);
   }
   text += fmt::format(
@@ -306,28 +296,22 @@ Status RecordingPlot::draw(const std::string& title, const std::string& path) co
     return Error{ErrorCode::bad_value,
                  fmt::format("{}: expected a hand to plot, found none", title)};
   }
-  std::error_code failed;
-  std::string pattern = (fs::temp_directory_path(failed) / "nade-plot-XXXXXX").string();
-  if (failed || ::mkdtemp(pattern.data()) == nullptr) {
+  std::error_code ignored;
+  const PassingFolder folder((fs::temp_directory_path(ignored) / "nade-plot-XXXXXX").string());
+  if (!folder.there()) {
     return Error{ErrorCode::unwritable,
-                 fmt::format("{}: expected to make a folder there", pattern)};
+                 fmt::format("{}: expected to make a folder there", folder.path())};
   }
-  const fs::path folder = pattern;
   const Result<study::DrawnFigure> drawn =
-      study::draw_figure({"page", script(title), data()}, folder.string());
-  std::string picture;
-  if (drawn && drawn->problem.empty()) {
-    std::ifstream file(folder / ("page" + fs::path(path).extension().string()), std::ios::binary);
-    picture.assign(std::istreambuf_iterator<char>(file), {});
-  }
-  fs::remove_all(folder, failed);
+      study::draw_figure({"page", script(title), data()}, folder.path());
   if (!drawn) return drawn.error();
   if (!drawn->problem.empty()) {
     // What follows tells of files that are gone.
     return Error{ErrorCode::unreadable,
                  fmt::format("{}: {}", path, drawn->problem.substr(0, drawn->problem.find(';')))};
   }
-  return write_whole(path, picture);
+  std::ifstream file(folder.path("page" + fs::path(path).extension().string()), std::ios::binary);
+  return write_whole(path, std::string(std::istreambuf_iterator<char>(file), {}));
 }
 
 }  // namespace nade::cli

@@ -1,5 +1,6 @@
 #include "lz_text.h"
 
+#include "nade/io/plain_text.h"
 #include "sketch_reader.h"
 
 namespace nade::io {
@@ -7,7 +8,6 @@ namespace {
 
 constexpr unsigned kBase64Bits = 6;
 constexpr std::uint32_t kEndCode = 2;
-constexpr std::uint32_t kReplacement = 0xFFFD;  // Unicode's, for half a character
 
 std::optional<std::uint32_t> base64_value(char c) {
   constexpr std::string_view kAlphabet =

@@ -5,7 +5,6 @@
 #include <string_view>
 
 #include "answer_sheet.h"
-#include "nade/io/plain_text.h"
 #include "nade/study/figure.h"
 #include "nade/study/line_break.h"
 
@@ -90,22 +89,11 @@ Layout layout_of(const Sheet& sheet) {
   return layout;
 }
 
-/// A line as a string of gnuplot's. In single quotes it replaces nothing, where in double ones it
-/// runs what stands in backticks.
-std::string in_quotes(std::string_view text) {
-  std::string result = "'";
-  for (const char character : plain_text(text)) {
-    if (character == '\'') result += '\'';
-    result += character;
-  }
-  return result + "'";
-}
-
 /// The label of a place on an axis, where gnuplot takes % for a number's format.
 std::string tic_label(const std::vector<std::string>& lines) {
   std::string label;
   for (const std::string& line : lines) {
-    std::string quoted = in_quotes(line);
+    std::string quoted = gnuplot_string(line);
     for (std::size_t at = 0; (at = quoted.find('%', at)) != std::string::npos; at += 2) {
       quoted.insert(at, 1, '%');
     }
@@ -187,7 +175,7 @@ std::string head_of(const std::string& name, const Layout& layout) {
              "# {0}.svg, {0}.pdf and {0}.png from {0}.dat; to draw them anew: gnuplot {0}.gp\n"
              "if (!exists(\"OUT\")) OUT = \"\"\n"
              "NAME = {1}\nDATA = NAME.\".dat\"\nWIDTH = {2:.0f}\nHEIGHT = {3:.0f}\n",
-             name, in_quotes(name), layout.width, layout.height) +
+             name, gnuplot_string(name), layout.width, layout.height) +
          std::string(kTerminals);
 }
 
@@ -202,13 +190,13 @@ std::string axes_of(const Sheet& sheet, const Layout& layout) {
                       places.right(), sheet.data.scale_low - 0.35, places.top());
   text += fmt::format("set ytics {:g},1,{:g}\nset xtics ({}) scale 0\n", sheet.data.scale_low,
                       sheet.data.scale_high, tics_of(sheet));
-  return text + fmt::format("set ylabel {}\n", in_quotes(scale_label(sheet)));
+  return text + fmt::format("set ylabel {}\n", gnuplot_string(scale_label(sheet)));
 }
 
 std::string labels_of(const Sheet& sheet, const Layout& layout) {
   std::string text = fmt::format(
       "set label 1 {} at screen 0.5,{:.4f} center font sprintf(\"sans-serif,%g\", 8*LETTERS)\n",
-      in_quotes(footnote_of(sheet)), 13.0 / layout.height);
+      gnuplot_string(footnote_of(sheet)), 13.0 / layout.height);
   if (!sheet.data.simulated) return text;
   return text + fmt::format(
                     "set label 2 \"SIMULATED\" at graph 0.5,0.45 center rotate by 24 font "
@@ -253,9 +241,9 @@ std::string plot_of(const Sheet& sheet, std::size_t panel) {
 std::string key_of(const Sheet& sheet) {
   std::string key;
   for (std::size_t method = 0; method < sheet.analysis.methods.size(); ++method) {
-    key += fmt::format(
-        ", \\\n  keyentry with boxes {} title {}", look_of(method).box,
-        in_quotes(method_label(sheet.analysis, sheet.analysis.methods[method], sheet.language)));
+    key += fmt::format(", \\\n  keyentry with boxes {} title {}", look_of(method).box,
+                       gnuplot_string(method_label(sheet.analysis, sheet.analysis.methods[method],
+                                                   sheet.language)));
   }
   return key;
 }
@@ -264,7 +252,7 @@ std::string panel_script(const Sheet& sheet, std::size_t panel) {
   std::string text;
   if (panel == 1) text += "unset label 1\nunset label 3\nunset ylabel\nset format y ''\n";
   if (!sheet.panels[panel].title.empty()) {
-    text += fmt::format("set title {} offset 0,-0.5\n", in_quotes(sheet.panels[panel].title));
+    text += fmt::format("set title {} offset 0,-0.5\n", gnuplot_string(sheet.panels[panel].title));
   }
   return text + plot_of(sheet, panel) + (panel == 0 ? key_of(sheet) : "") + "\n";
 }

@@ -1,7 +1,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
-#include <stdlib.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -13,6 +12,8 @@
 #include <system_error>
 
 #include "nade/io/output_file.h"
+#include "nade/io/passing_folder.h"
+#include "nade/io/plain_text.h"
 #include "nade/study/figure.h"
 
 namespace nade::study {
@@ -22,29 +23,6 @@ namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 3> kFormats{".svg", ".pdf", ".png"};
 constexpr const char* kMessages = "messages";  // gnuplot's
-
-/// A folder that is gone again with all that is in it.
-class PassingFolder {
- public:
-  explicit PassingFolder(std::string pattern) : path_(std::move(pattern)) {
-    there_ = ::mkdtemp(path_.data()) != nullptr;
-  }
-  PassingFolder(const PassingFolder&) = delete;
-  PassingFolder& operator=(const PassingFolder&) = delete;
-  ~PassingFolder() {
-    std::error_code aside;
-    if (there_) fs::remove_all(path_, aside);
-  }
-  [[nodiscard]] bool there() const { return there_; }
-  [[nodiscard]] std::string name() const { return fs::path(path_).filename().string(); }
-  [[nodiscard]] std::string path(std::string_view name) const {
-    return path_ + "/" + std::string(name);
-  }
-
- private:
-  std::string path_;
-  bool there_ = false;
-};
 
 /// How a program ended.
 struct Ended {
@@ -114,6 +92,15 @@ std::string problem_of(const Figure& figure, const Ended& ended, const PassingFo
 
 }  // namespace
 
+std::string gnuplot_string(std::string_view line) {
+  std::string result = "'";
+  for (const char character : plain_text(line)) {
+    if (character == '\'') result += '\'';
+    result += character;
+  }
+  return result + "'";
+}
+
 Result<DrawnFigure> draw_figure(const Figure& figure, const std::string& folder) {
   const std::string stem = (fs::path(folder) / figure.name).string();
   for (const auto& [end, text] : {std::pair{".gp", &figure.script}, {".dat", &figure.data}}) {
@@ -124,8 +111,8 @@ Result<DrawnFigure> draw_figure(const Figure& figure, const std::string& folder)
   if (!passing.there()) {
     return Error{ErrorCode::unwritable, fmt::format("{}: no folder can be made in it", folder)};
   }
-  const Ended ended =
-      run_gnuplot(fs::path(".") / folder, figure.name + ".gp", passing.name() + "/");
+  const Ended ended = run_gnuplot(fs::path(".") / folder, figure.name + ".gp",
+                                  fs::path(passing.path()).filename().string() + "/");
   DrawnFigure drawn;
   drawn.problem = problem_of(figure, ended, passing);
   if (!drawn.problem.empty()) return drawn;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "nade/status.h"
@@ -35,6 +36,10 @@ struct Figure {
 /// "with correction", with their names where there are several.
 [[nodiscard]] std::string method_label(const Analysis& analysis, const std::string& method,
                                        Language language);
+
+/// A line as a string of gnuplot's. In single quotes it replaces nothing, where in double ones it
+/// runs what stands in backticks.
+[[nodiscard]] std::string gnuplot_string(std::string_view line);
 
 /// What became of the pictures.
 struct DrawnFigure {
