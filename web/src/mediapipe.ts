@@ -4,9 +4,10 @@
 // Based on: WebXR Input Profiles. generic-hand, @webxr-input-profiles/assets 1.0.20. (its rest
 // pose gives the proportions of what MediaPipe does not report)
 import {badArgument} from './error.js';
-import {HAND_FLOATS, JOINT_FLOATS} from './layout.js';
+import {mirrored, positionOf, put} from './hand_joints.js';
+import {HAND_FLOATS} from './layout.js';
 import type {Hand, Side} from './types.js';
-import {cross, dot, fromAxes, inverse, length, minus, multiply, plus, rotate, times, turn,
+import {along, cross, dot, fromAxes, inverse, length, minus, multiply, plus, rotate, times, turn,
         unit} from './vectors.js';
 import type {Quaternion, Vector} from './vectors.js';
 
@@ -28,7 +29,7 @@ export interface MediapipeResult {
 }
 type Points = {x: number; y: number; z: number}[];
 
-export const LANDMARK_COUNT = 21;
+const LANDMARK_COUNT = 21;
 const POINTS_OF_DIGIT = 4;
 const DIGITS = 5;
 const KNUCKLES = [5, 9, 13, 17];
@@ -161,12 +162,12 @@ export function handFromLandmarks(side: Side, points: Vector[]): Hand | null {
   const palm = palmOf(right);
   if (!palm) return null;
   const hand = new Float32Array(HAND_FLOATS);
-  put(hand, 1, right[0], palm.rotation);
+  put(hand, 1, palm.rotation, right[0]);
   placeThumb(hand, palm, right.slice(1, 5));
   for (let finger = 0; finger < KNUCKLES.length; ++finger) placeFinger(hand, palm, right, finger);
   const [base, knuckle] = [11, 12].map((joint) => positionOf(hand, joint));
-  put(hand, 0, times(0.5, plus(base, knuckle)), palm.rotation);
-  return side === 'right' ? hand : flippedHand(hand);
+  put(hand, 0, palm.rotation, times(0.5, plus(base, knuckle)));
+  return side === 'right' ? hand : mirrored(hand);
 }
 
 interface Palm {
@@ -178,17 +179,16 @@ interface Palm {
 
 /** The palm turns as the fan of the four knuckles does, seen from the wrist. */
 function palmOf(points: Vector[]): Palm | null {
-  const axes = (knuckles: Vector[]): Quaternion | null => {
-    const ahead = knuckles.reduce(plus);
-    const up = cross(knuckles[3], knuckles[0]);
-    return facing(ahead, cross(ahead, up));
-  };
-  const seen = axes(KNUCKLES.map((at) => minus(points[at], points[0])));
-  const rest = axes(REST_KNUCKLES) as Quaternion;
+  const seen = fanOf(KNUCKLES.map((at) => minus(points[at], points[0])));
   if (!seen) return null;
   const breadth = length(minus(points[5], points[17]));
-  return {wrist: points[0], rotation: multiply(seen, inverse(rest)),
-          scale: breadth / length(minus(REST_KNUCKLES[0], REST_KNUCKLES[3]))};
+  return {wrist: points[0], rotation: multiply(seen, REST_FAN), scale: breadth / REST_BREADTH_M};
+}
+
+function fanOf(knuckles: Vector[]): Quaternion | null {
+  const ahead = knuckles.reduce(plus);
+  const up = cross(knuckles[3], knuckles[0]);
+  return facing(ahead, cross(ahead, up));
 }
 
 function placeFinger(hand: Hand, palm: Palm, points: Vector[], finger: number): void {
@@ -207,7 +207,7 @@ function placeFinger(hand: Hand, palm: Palm, points: Vector[], finger: number): 
   places.forEach((place, i) => {
     const bone = bones[Math.min(i, bones.length - 1)];
     const across = i === 0 ? rolled(right, bone, BASE_ROLLS[finger]) : hinge;
-    put(hand, 6 + DIGITS * finger + i, place, facing(bone, across) ?? palm.rotation);
+    put(hand, 6 + DIGITS * finger + i, facing(bone, across) ?? palm.rotation, place);
   });
 }
 
@@ -217,7 +217,7 @@ function placeThumb(hand: Hand, palm: Palm, places: Vector[]): void {
   const swing = shortestTurn(THUMB_BONE, rotate(inverse(palm.rotation), bones[0]));
   const hinge = hingeOf(bones, rotate(palm.rotation, rotate(swing, THUMB_HINGE)));
   places.forEach((place, i) => {
-    put(hand, 2 + i, place, facing(bones[Math.min(i, bones.length - 1)], hinge) ?? palm.rotation);
+    put(hand, 2 + i, facing(bones[Math.min(i, bones.length - 1)], hinge) ?? palm.rotation, place);
   });
 }
 
@@ -232,7 +232,7 @@ function directions(places: Vector[], first: Vector): Vector[] {
 
 /** The axis (+X) about which three bones bend; where they are straight the rest pose's. */
 function hingeOf(bones: Vector[], rest: Vector): Vector {
-  const across = unitOr(minus(rest, times(dot(rest, bones[0]), bones[0])), rest);
+  const across = unitOr(along(rest, bones[0]), rest);
   const bend = plus(cross(bones[1], bones[0]), cross(bones[2], bones[1]));
   const amount = length(bend);
   if (!(amount > STRAIGHT)) return across;
@@ -250,7 +250,7 @@ function smoothStep(from: number, to: number, x: number): number {
 }
 
 function rolled(right: Vector, bone: Vector, degrees: number): Vector {
-  const across = unitOr(minus(right, times(dot(right, bone), bone)), right);
+  const across = unitOr(along(right, bone), right);
   return rotate(turn(degrees * DEGREE, bone), across);
 }
 
@@ -258,7 +258,7 @@ function rolled(right: Vector, bone: Vector, degrees: number): Vector {
 function facing(ahead: Vector, right: Vector): Quaternion | null {
   if (!(length(ahead) > SHORTEST_M)) return null;
   const z = times(-1, unit(ahead));
-  const across = minus(right, times(dot(right, z), z));
+  const across = along(right, z);
   if (!(length(across) > SHORTEST_M)) return null;
   const x = unit(across);
   return fromAxes(x, cross(z, x), z);
@@ -272,17 +272,6 @@ function shortestTurn(from: Vector, to: Vector): Quaternion {
 
 const unitOr = (a: Vector, otherwise: Vector): Vector =>
   (length(a) > SHORTEST_M ? unit(a) : otherwise);
+const REST_FAN = inverse(fanOf(REST_KNUCKLES) as Quaternion);
+const REST_BREADTH_M = length(minus(REST_KNUCKLES[0], REST_KNUCKLES[3]));
 const flipped = ([x, y, z]: Vector): Vector => [-x, y, z];
-/** Of a rotation x y z w and a position x y z, what changes its sign in a mirror. */
-const FLIPPED = [1, 2, 4];
-const flippedHand = (hand: Hand): Hand =>
-  hand.map((x, i) => (FLIPPED.includes(i % JOINT_FLOATS) ? -x : x));
-
-function positionOf(hand: Hand, joint: number): Vector {
-  const at = JOINT_FLOATS * joint + 4;
-  return [hand[at], hand[at + 1], hand[at + 2]];
-}
-function put(hand: Hand, joint: number, position: Vector, rotation: Quaternion): void {
-  hand.set(rotation, JOINT_FLOATS * joint);
-  hand.set(position, JOINT_FLOATS * joint + 4);
-}

@@ -4,8 +4,9 @@
  */
 // Based on: Casiez, Roussel and Vogel. 1 Euro Filter: A Simple Speed-based Low-pass Filter for
 // Noisy Input in Interactive Systems. 2012. The same hand as that of `nade view`.
-import {HAND_FLOATS, JOINT_COUNT, JOINT_FLOATS} from './layout.js';
+import {HAND_FLOATS} from './layout.js';
 import {badArgument} from './error.js';
+import {moved, positionOf, put, rotationOf} from './hand_joints.js';
 import type {Hand, Side, SurfacePoint} from './types.js';
 import {across, along, cross, dot, fromAxes, inverse, length, minus, multiply, plus, rotate, times,
         turn, unit} from './vectors.js';
@@ -31,6 +32,8 @@ const MIDDLE_KNUCKLE = 12;
 // The generic hand of WebXR: from the palm joint to the skin, and from the wrist to that knuckle.
 const PALM_SKIN_M = 0.02124;
 const GENERIC_LENGTH_M = 0.0916981;
+
+export {mirrored} from './hand_joints.js';
 
 export interface PointerSettings {
   /** Of the palm's skin below the surface, metres; below 0 above it. */
@@ -198,11 +201,6 @@ export class PointerHand {
   }
 }
 
-/** The hand of the other side. */
-export function mirrored(hand: Hand): Hand {
-  return hand.map((x, i) => ([1, 2, 4].includes(i % JOINT_FLOATS) ? -x : x));
-}
-
 /** Turns a joint by a rotation in its own frame, and what hangs on it. */
 function bend(hand: Hand, joint: number, tip: number, by: Quaternion): void {
   const own = rotationOf(hand, joint);
@@ -212,28 +210,6 @@ function bend(hand: Hand, joint: number, tip: number, by: Quaternion): void {
     const position = plus(center, rotate(world, minus(positionOf(hand, j), center)));
     put(hand, j, multiply(world, rotationOf(hand, j)), position);
   }
-}
-
-function moved(hand: Hand, rotation: Quaternion, by: Vector): Hand {
-  const result = hand.slice();
-  for (let j = 0; j < JOINT_COUNT; ++j) {
-    put(result, j, multiply(rotation, rotationOf(hand, j)),
-        plus(by, rotate(rotation, positionOf(hand, j))));
-  }
-  return result;
-}
-
-function rotationOf(hand: Hand, joint: number): Quaternion {
-  const at = JOINT_FLOATS * joint;
-  return [hand[at], hand[at + 1], hand[at + 2], hand[at + 3]];
-}
-function positionOf(hand: Hand, joint: number): Vector {
-  const at = JOINT_FLOATS * joint + 4;
-  return [hand[at], hand[at + 1], hand[at + 2]];
-}
-function put(hand: Hand, joint: number, rotation: Quaternion, position: Vector): void {
-  hand.set(rotation, JOINT_FLOATS * joint);
-  hand.set(position, JOINT_FLOATS * joint + 4);
 }
 
 const timeConstant = (cutoffHz: number) => 1 / (2 * Math.PI * cutoffHz);

@@ -3,8 +3,8 @@ import {HAND_FLOATS, JOINT_FLOATS} from '../../src/index.js';
 import type {Hand, Side} from '../../src/index.js';
 import {handFromLandmarks, LandmarkFilter, readMediapipe} from '../../src/mediapipe.js';
 import type {MediapipeResult} from '../../src/mediapipe.js';
-import {inverse, multiply, plus, rotate} from '../../src/vectors.js';
-import type {Quaternion, Vector} from '../../src/vectors.js';
+import {moved, positionOf, rotationOf} from '../../src/hand_joints.js';
+import {inverse, minus, multiply, plus, rotate} from '../../src/vectors.js';
 import {SIDES} from './hands.js';
 
 const FOLDER = 'mediapipe/';
@@ -136,24 +136,12 @@ export class Camera {
 
 /** The fingers of one hand on the palm of another. */
 export function withPalmOf(hand: Hand, other: Hand): Hand {
-  const [rotation, position] = [rotationOf(other, 0), positionOf(other, 0)];
-  const home = inverse(rotationOf(hand, 0));
-  const turned = multiply(rotation, home);
-  const from = positionOf(hand, 0);
-  const result = new Float32Array(HAND_FLOATS);
-  for (let at = 0, joint = 0; at < HAND_FLOATS; at += JOINT_FLOATS, ++joint) {
-    const offset = positionOf(hand, joint).map((x, i) => x - from[i]) as Vector;
-    result.set(multiply(turned, rotationOf(hand, joint)), at);
-    result.set(plus(position, rotate(turned, offset)), at + 4);
-    result[at + 7] = other[at + 7];
-  }
+  const turned = multiply(rotationOf(other, 0), inverse(rotationOf(hand, 0)));
+  const result = moved(hand, turned, minus(positionOf(other, 0), rotate(turned, positionOf(hand, 0))));
+  for (let at = 7; at < HAND_FLOATS; at += JOINT_FLOATS) result[at] = other[at];
   return result;
 }
 
-const rotationOf = (hand: Hand, joint: number) =>
-  [...hand.subarray(JOINT_FLOATS * joint, JOINT_FLOATS * joint + 4)] as Quaternion;
-const positionOf = (hand: Hand, joint: number) =>
-  [...hand.subarray(JOINT_FLOATS * joint + 4, JOINT_FLOATS * joint + 7)] as Vector;
 const inWindow = (x: number) => Math.min(1, Math.max(0, (x - MARGIN) / (1 - 2 * MARGIN)));
 /** An angle within half a turn. */
 const around = (angle: number) => Math.atan2(Math.sin(angle), Math.cos(angle));

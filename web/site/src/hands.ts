@@ -1,6 +1,7 @@
 // Hands as they are drawn: the generic hand of WebXR, bent to 26 joints.
 import * as THREE from 'three';
 import {GLTFLoader} from 'three/addons/loaders/GLTFLoader.js';
+import {clone} from 'three/addons/utils/SkeletonUtils.js';
 
 import {JOINT_FLOATS, JOINT_NAMES} from '../../src/index.js';
 import type {Corrector, Hand, Method, Nade, Result, Scene, Side} from '../../src/index.js';
@@ -80,8 +81,8 @@ export class ShownHand {
   }
 
   static async load(nade: Nade, side: Side, into: THREE.Object3D): Promise<ShownHand> {
-    const model = async () => (await new GLTFLoader().loadAsync(`${side}.glb`)).scene;
-    const [drawn, ghost] = await Promise.all([model(), model()]);
+    const {scene: drawn} = await new GLTFLoader().loadAsync(`${side}.glb`);
+    const ghost = clone(drawn);
     into.add(drawn, ghost);
     return new ShownHand(nade, side, new DrawnHand(drawn, skin(), false),
                          new DrawnHand(ghost, ghostly(), true));

@@ -286,10 +286,8 @@ export class Page {
   }
 
   private async takeRecording(file: File): Promise<void> {
-    const replay = new Replay(await readRecording(await file.arrayBuffer()));
+    this.play(new Replay(await readRecording(await file.arrayBuffer())));
     this.controls.choose('sources', 'replay');
-    this.follow('replay');
-    this.play(replay);
   }
 
   private async takeObject(file: File): Promise<void> {

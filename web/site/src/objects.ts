@@ -2,6 +2,7 @@
 import * as THREE from 'three';
 import {GLTFLoader} from 'three/addons/loaders/GLTFLoader.js';
 
+import {DrawnVertices} from '../../src/drawn_vertices.js';
 import type {Nade, Placement, Surface} from '../../src/index.js';
 import type {Touchable} from '../../src/pointer.js';
 import {trianglesOf} from '../../src/three.js';
@@ -62,13 +63,13 @@ export async function dog(nade: Nade): Promise<Thing> {
   dress(scene, () => new THREE.MeshPhysicalMaterial({
     vertexColors: true, roughness: 0.9, sheen: 0.35, sheenRoughness: 0.55,
     sheenColor: new THREE.Color('#f3d3ae')}));
-  const {vertices, triangles} = trianglesOf(scene);
-  const surface = nade.mesh(vertices, triangles);
+  const vertices = new DrawnVertices(scene);
+  const surface = nade.mesh(vertices.read()!, vertices.triangles());
   const found = thing(scene, surface, {},
                       {target: [0.03, 0.33, 0], distance: 1.55, around: 0.42, up: 0.4},
                       (seconds) => new THREE.Vector3(0.085 - 0.145 * Math.cos(1.15 * seconds), 0.44,
                                                      0.014 * Math.sin(2.3 * seconds)));
-  found.living = new Living(scene, animations, surface);
+  found.living = new Living(scene, animations, vertices, surface);
   return found;
 }
 
