@@ -12,7 +12,7 @@
 namespace nade::cli {
 namespace {
 
-constexpr const char* kGroup = "Open points of --method paper (docs/method.md)";
+constexpr const char* kGroup = "Open points of --method paper (docs/paper.md)";
 constexpr const char* kMethod = "--method";
 constexpr const char* kSoftness = "--softness";
 constexpr const char* kFriction = "--friction";
