@@ -43,13 +43,14 @@ export class SpacePanel {
 
   /** Where the key is that is the `which`-th of a row, in the panel's frame. */
   centerOf(row: number, which: number): THREE.Vector3 {
-    const {x, y, width, height} = this.place(row, which);
+    const {x, y, width, height} = this.place(this.rows()[row].length, row, which);
     return new THREE.Vector3((x + width / 2) / PX_PER_M - WIDTH_M / 2,
                              HEIGHT_M / 2 - (y + height / 2) / PX_PER_M, 0);
   }
 
   /** Once a frame, with the hands that are drawn. */
   update(hands: readonly Hand[]): void {
+    const rows = this.rows();
     this.mesh.updateWorldMatrix(true, false);
     hands.forEach((hand, which) => {
       this.tip.fromArray(hand, JOINT_FLOATS * INDEX_TIP + 4);
@@ -57,34 +58,34 @@ export class SpacePanel {
       const away = this.tip.z - (hand[JOINT_FLOATS * INDEX_TIP + 7] || 0);
       if (away > LET_GO_M || this.tip.z < -THROUGH_M) this.touching[which] = null;
       if (away > TOUCHED_M || this.tip.z < -THROUGH_M || this.touching[which]) return;
-      const key = this.keyAt(this.tip);
+      const key = this.keyAt(rows, this.tip);
       if (!key) return;
       this.touching[which] = key;
       key.press();
     });
-    this.draw();
+    this.draw(rows);
   }
 
-  private keyAt({x, y}: THREE.Vector3): Key | null {
+  private keyAt(rows: Key[][], {x, y}: THREE.Vector3): Key | null {
     const px = (x + WIDTH_M / 2) * PX_PER_M;
     const py = (HEIGHT_M / 2 - y) * PX_PER_M;
-    const found = this.rows().flatMap((keys, row) => keys.filter((_, which) => {
-      const at = this.place(row, which);
-      return px >= at.x && px <= at.x + at.width && py >= at.y && py <= at.y + at.height;
-    }));
-    return found[0] ?? null;
+    for (const [row, keys] of rows.entries()) {
+      for (const [which, key] of keys.entries()) {
+        const at = this.place(keys.length, row, which);
+        if (px >= at.x && px <= at.x + at.width && py >= at.y && py <= at.y + at.height) return key;
+      }
+    }
+    return null;
   }
 
-  private place(row: number, which: number) {
+  private place(count: number, row: number, which: number) {
     const {width} = this.pixels.canvas;
     const [edge, gap, height] = [40, 16, 130];
-    const count = this.rows()[row].length;
     const wide = (width - 2 * edge - gap * (count - 1)) / count;
     return {x: edge + which * (wide + gap), y: edge + row * (height + gap), width: wide, height};
   }
 
-  private draw(): void {
-    const rows = this.rows();
+  private draw(rows: Key[][]): void {
     const shown = JSON.stringify([this.sentence, rows.map((keys) => keys.map((key) => (
       [key.text, key.isChosen()])))]);
     if (shown === this.drawn) return;
@@ -102,7 +103,7 @@ export class SpacePanel {
     pixels.textAlign = 'center';
     pixels.textBaseline = 'middle';
     rows.forEach((keys, row) => keys.forEach((key, which) => {
-      const at = this.place(row, which);
+      const at = this.place(keys.length, row, which);
       const chosen = key.isChosen();
       box(at.x, at.y, at.width, at.height, 30, chosen ? '#a2603f' : 'rgb(70 55 40 / 0.1)');
       pixels.fillStyle = chosen ? '#fff' : '#2e2823';

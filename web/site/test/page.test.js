@@ -25,7 +25,9 @@ after(async () => { await browser.close(); });
 const choose = (page, set, value) => page.check(`#${set} [value=${value}]`);
 const skin = (page, side = 'right') => page.evaluate((s) => window.nadePage.skin(s), side);
 const hand = (page, side = 'right') => page.evaluate((s) => window.nadePage.hand(s), side);
-const notice = (page) => page.locator('#notice:not([hidden])').textContent();
+/** What the page says, once it has read what it was given. */
+const notice = (page) =>
+  page.locator('#notice:not([hidden])', {hasNotText: /^Reading /}).textContent();
 const palm = ({drawn}) => drawn.slice(4, 7);
 const distance = (a, b) => Math.hypot(...a.map((x, i) => x - b[i]));
 const median = (values) => values.sort((a, b) => a - b)[values.length >> 1];
