@@ -5,11 +5,6 @@
 
 namespace nade {
 
-HandPose apply(const PalmCorrection& correction, const HandPose& tracked) noexcept {
-  const Vec3 center = tracked[Joint::palm].position;
-  return moved(tracked, {center + correction.shift - correction.turn * center, correction.turn});
-}
-
 SeatedPalm seat_palm(const HandPose& tracked, const std::optional<PartContact>& palm) noexcept {
   if (!palm) return {tracked, {}};
   PalmCorrection correction;

@@ -163,7 +163,7 @@ void ProxyFrame::follow_person() {
     state_.motion.jumps_from = {};  // from who knows when
     return;
   }
-  jumped_ = since_last_s_ <= kMissing_s && has_jumped(model_.tracked, seconds_, state_);
+  jumped_ = since_last_s_ <= kMissing_s && follow_jump(model_.tracked, seconds_, state_);
   motion_m_ = largest_motion(state_.last->tracked, model_.tracked);
   state_.way_m += motion_m_;
 }

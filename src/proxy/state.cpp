@@ -90,7 +90,7 @@ std::optional<ShownBefore> go_on(const SeenHand& seen, const Object& object,
   return before;
 }
 
-bool has_jumped(const HandPose& tracked, double seconds, ProxyState& state) noexcept {
+bool follow_jump(const HandPose& tracked, double seconds, ProxyState& state) noexcept {
   const SeenJump seen = follow_jumps(state.last->tracked, tracked, seconds, state.motion);
   FrameBeforeJump& before = state.before_jumps[seen.slot];
   if (seen.jump == Jump::away) before = {*state.last, state.touch, state.mode};

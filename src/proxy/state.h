@@ -122,7 +122,7 @@ std::optional<ShownBefore> go_on(const SeenHand& seen, const Object& object,
                                  const std::optional<CarrierBefore>& carrier,
                                  ProxyState& state) noexcept;
 /// Takes in whether the tracked hand jumped since the last frame, or back to where it was.
-[[nodiscard]] bool has_jumped(const HandPose& tracked, double seconds, ProxyState& state) noexcept;
+[[nodiscard]] bool follow_jump(const HandPose& tracked, double seconds, ProxyState& state) noexcept;
 /// The surface has another shape: what its pads saw does not count.
 void forget_planes(ProxyState& state) noexcept;
 /// An object beside the carrier moved, deformed, came or went: what it may have to do with does

@@ -7,7 +7,7 @@ namespace nade {
 std::span<const TuningInfo> tuning_table() {
   static constexpr std::array kTable{
       TuningInfo{"place_stiffness", "1/m^2", 1000.0, 30000.0,
-                 "shared by the joints: holds the drawn ones on to the tracked",
+                 "shared by the joints: holds the drawn ones to the tracked",
                  &ProxyTuning::place_stiffness},
       TuningInfo{"knuckle_stiffness", "1/rad^2", 0.0, 10.0,
                  "a finger gives way at its knuckle first; the thumb lies down beside the hand",
@@ -26,41 +26,35 @@ std::span<const TuningInfo> tuning_table() {
       TuningInfo{"adhesion_height_m", "m", 0.001, 0.01, "it grows up to this gap, then is constant",
                  &ProxyTuning::adhesion_height_m},
       TuningInfo{"adhesion_full_m", "m", 0.005, 0.03,
-                 "depth of the tracked patch at which it is whole; it begins half as far above the "
-                 "surface: a lifted finger stays lifted",
+                 "depth of the tracked patch at which it is whole; with more, lifted fingers are "
+                 "drawn down",
                  &ProxyTuning::adhesion_full_m},
       TuningInfo{"adhesion_reach_m", "m", 0.02, 0.1,
                  "a patch farther off is let be, a part farther off does not touch",
                  &ProxyTuning::adhesion_reach_m},
       TuningInfo{"pressed_m", "m", 0.003, 0.03,
-                 "depth of the deepest palmar skin at which the person surely presses; the seat "
-                 "counts from there on",
-                 &ProxyTuning::pressed_m},
+                 "deepest palmar skin at which the person surely presses", &ProxyTuning::pressed_m},
       TuningInfo{"landing_m", "m", 0.005, 0.04, "skin brakes evenly over this way",
                  &ProxyTuning::landing_m},
       TuningInfo{"slide_time_s", "s", 0.0, 100.0,
                  "along the surface a correction fades so slowly that strokes are kept",
                  &ProxyTuning::slide_time_s},
       TuningInfo{"unnoticed_m", "m", 0.0, 0.05,
-                 "nobody notices a hand that is so far off: what is more comes back, and makes it "
-                 "one that is held up",
+                 "a shift so far off goes unnoticed; what is more comes back",
                  &ProxyTuning::unnoticed_m},
       TuningInfo{"step_up_m", "m", 0.0, 0.1,
                  "what holds skin back so far is stepped over, where it is low",
                  &ProxyTuning::step_up_m},
       TuningInfo{"rest_speed_mps", "m/s", 0.0, 0.03,
-                 "a drawn joint goes as fast as this though the person rests; five times that on "
-                 "its way home",
+                 "a drawn joint may go so fast while the person rests",
                  &ProxyTuning::rest_speed_mps},
       TuningInfo{"let_go_s", "s", 0.05, 1.0,
                  "held up for so long while the person is clear of the object, a hand is let go",
                  &ProxyTuning::let_go_s},
-      TuningInfo{"elsewhere_m", "m", 0.05, 0.5,
-                 "a hand so far off was left behind; one pressed 80 mm deep through a board is not",
+      TuningInfo{"elsewhere_m", "m", 0.05, 0.5, "a hand so far off was left behind",
                  &ProxyTuning::elsewhere_m},
       TuningInfo{"return_s", "s", 0.1, 1.0,
-                 "what the person did not ask for comes and goes in about this time: home in the "
-                 "air, friction, softness; half as long again when let go",
+                 "what the person did not ask for comes and goes in about this time",
                  &ProxyTuning::return_s},
   };
   return kTable;

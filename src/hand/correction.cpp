@@ -4,6 +4,11 @@
 
 namespace nade {
 
+HandPose apply(const PalmCorrection& correction, const HandPose& tracked) noexcept {
+  const Vec3 center = tracked[Joint::palm].position;
+  return moved(tracked, {center + correction.shift - correction.turn * center, correction.turn});
+}
+
 HandPose apply(const Correction& correction, const HandPose& tracked) noexcept {
   HandPose hand = apply(correction.palm, tracked);
   for (std::size_t d = 0; d < kDigitCount; ++d) {
