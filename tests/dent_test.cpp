@@ -18,8 +18,6 @@ namespace {
 
 using Vec3f = Eigen::Vector3f;
 
-constexpr std::int64_t kFrame_ns = 11'111'111;
-
 /// A soft ball of triangles of about 5 mm, its top at y = 0, and a hand that presses it from above.
 class Dent : public testing::Test {
  protected:
@@ -45,7 +43,7 @@ class Dent : public testing::Test {
       const double low_m = 0.05 - std::min(1.0, i / 80.0) * (0.05 + depth_m);
       const double skin_m = generic_skin_depths()[Part::palm];
       for (Pose& joint : hand.joints) joint.position += Vec3(0.0, low_m + skin_m, 0.0) - palm;
-      drawn = corrector.update(hand, Object(*ball_), i * kFrame_ns).pose;
+      drawn = corrector.update(hand, Object(*ball_), i * test::kFrame_ns).pose;
     }
     std::vector<Vec3f> skin(mesh_->vertices.size());
     pose_skin(*mesh_, drawn, 1.0, skin, {});

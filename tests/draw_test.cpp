@@ -14,6 +14,7 @@
 #include "nade/draw/gl_context.h"
 #include "nade/draw/renderer.h"
 #include "nade/draw/text.h"
+#include "support/stage_fixture.h"
 #include "support/stored_picture.h"
 
 namespace nade::draw {
@@ -21,9 +22,6 @@ namespace {
 
 using Vec3f = Eigen::Vector3f;
 
-constexpr int kWidth = 320;
-constexpr int kHeight = 240;
-constexpr double kAspect = static_cast<double>(kWidth) / kHeight;
 constexpr double kRadius = 0.05;
 constexpr float kRadiusF = 0.05F;
 

@@ -15,7 +15,7 @@ using test::read_whole;
 using test::WholeRecording;
 
 /// Four frames of a made-up hand: none, the right, both, the left.
-const std::string kStored = NADE_TEST_DATA_DIR "/leap_v2.json";
+const std::string kLeapFile = NADE_TEST_DATA_DIR "/leap_v2.json";
 const std::vector<std::string> kClips{"HandSplay-110fps", "confidence-74fps", "pinch",
                                       "rollAndPitchCropped"};
 
@@ -26,7 +26,7 @@ bool have_clips() { return std::filesystem::exists(clip_path(kClips[0])); }
 
 class LeapImport : public test::RecordingFiles {
  protected:
-  [[nodiscard]] static json stored() { return json::parse(test::read_file(kStored)); }
+  [[nodiscard]] static json stored() { return json::parse(test::read_file(kLeapFile)); }
   [[nodiscard]] WholeRecording read(const json& recording) const {
     return read_whole(given("in.json", recording.dump()));
   }
@@ -56,7 +56,7 @@ void expect_sound(const HandPose& hand) {
 HandPose from_palm(const HandPose& hand) { return moved(hand, hand[Joint::palm].inverse()); }
 
 TEST_F(LeapImport, StoredFileLoads) {
-  const WholeRecording whole = read_whole(kStored);
+  const WholeRecording whole = read_whole(kLeapFile);
   EXPECT_EQ(whole.error, "");
   EXPECT_TRUE(whole.warnings.empty());
   EXPECT_EQ(whole.format, RecordingFormat::leap_v2);
@@ -76,7 +76,7 @@ TEST_F(LeapImport, StoredFileLoads) {
 
 TEST_F(LeapImport, MeasuredJointsStayWhereTheyWere) {
   const json raw = stored();
-  const HandPose hand = read_whole(kStored).frames[1].hands[1]->pose;
+  const HandPose hand = read_whole(kLeapFile).frames[1].hands[1]->pose;
   EXPECT_DOUBLE_EQ(hand.confidence, 0.9);
   for (const json& pointable : raw["frames"][1]["pointables"]) {
     const auto digit = pointable["type"].get<std::size_t>();
@@ -94,7 +94,7 @@ TEST_F(LeapImport, MeasuredJointsStayWhereTheyWere) {
 }
 
 TEST_F(LeapImport, LeftIsTheMirrorOfRight) {
-  const WholeRecording whole = read_whole(kStored);
+  const WholeRecording whole = read_whole(kLeapFile);
   const HandPose left = from_palm(whole.frames[2].hands[0]->pose);
   const HandPose right = mirrored(from_palm(whole.frames[2].hands[1]->pose));
   for (std::size_t i = 0; i < kJointCount; ++i) {
@@ -104,7 +104,7 @@ TEST_F(LeapImport, LeftIsTheMirrorOfRight) {
 }
 
 TEST_F(LeapImport, WristLiesBehindTheKnucklesAsInAHand) {
-  const HandPose hand = from_palm(read_whole(kStored).frames[1].hands[1]->pose);
+  const HandPose hand = from_palm(read_whole(kLeapFile).frames[1].hands[1]->pose);
   EXPECT_GT(hand_length(hand), 0.085);
   EXPECT_LT(hand_length(hand), 0.105);
   EXPECT_GT(hand[Joint::wrist].position.z(), hand[Joint::thumb_metacarpal].position.z());
@@ -118,7 +118,7 @@ TEST_F(LeapImport, WristLiesBehindTheKnucklesAsInAHand) {
 }
 
 TEST_F(LeapImport, BentFingersTurnAboutTheirHinge) {
-  const HandPose hand = read_whole(kStored).frames[1].hands[1]->pose;
+  const HandPose hand = read_whole(kLeapFile).frames[1].hands[1]->pose;
   for (std::size_t d = 1; d < kDigitCount; ++d) {
     const std::size_t first = index_of(joints_of(digit_at(d)).metacarpal) + 1;
     const Vec3 hinge = hand.joints[first].rotation * Vec3::UnitX();
@@ -246,7 +246,7 @@ TEST_F(LeapImport, NothingMayFollowTheFrames) {
 }
 
 TEST_F(LeapImport, CutOffFileIsReadToItsLastWholeFrame) {
-  const std::string text = test::read_file(kStored);
+  const std::string text = test::read_file(kLeapFile);
   const WholeRecording whole = read_whole(given("cut.json", text.substr(0, text.size() - 900)));
   EXPECT_EQ(whole.error, "");
   EXPECT_EQ(whole.frames.size(), 3u);

@@ -16,7 +16,7 @@ using test::LzString;
 using test::read_whole;
 using test::WholeRecording;
 
-const std::string kStored = NADE_TEST_DATA_DIR "/leap_v2.json";
+const std::string kPlaybackFile = NADE_TEST_DATA_DIR "/leap_v2.json";
 
 /// As LeapJS Playback 0.2 writes them.
 const json kKeys = json::parse(R"([
@@ -46,7 +46,7 @@ class LeapPlayback : public test::RecordingFiles {
  protected:
   /// The stored recording, packed into rows.
   [[nodiscard]] static json rows() {
-    json result = json::parse(test::read_file(kStored));
+    json result = json::parse(test::read_file(kPlaybackFile));
     json rows = json::array({kKeys});
     for (const json& frame : result["frames"]) rows.push_back(row_of(kKeys, frame));
     // The metadata come first there.
@@ -58,7 +58,7 @@ class LeapPlayback : public test::RecordingFiles {
 };
 
 void expect_as_stored(const WholeRecording& found) {
-  const WholeRecording stored = read_whole(kStored);
+  const WholeRecording stored = read_whole(kPlaybackFile);
   ASSERT_EQ(found.error, "");
   EXPECT_EQ(found.format, RecordingFormat::leap_v2);
   EXPECT_EQ(found.warnings, stored.warnings);
@@ -79,7 +79,7 @@ TEST_F(LeapPlayback, RowsAreReadAsFrames) { expect_as_stored(read(rows().dump())
 
 TEST_F(LeapPlayback, WhatLzStringHasPackedIsRead) {
   expect_as_stored(read(LzString::packed(rows().dump())));
-  expect_as_stored(read(LzString::packed(test::read_file(kStored))));
+  expect_as_stored(read(LzString::packed(test::read_file(kPlaybackFile))));
 }
 
 TEST_F(LeapPlayback, LinesAndSpacesBetweenLettersAreForgiven) {

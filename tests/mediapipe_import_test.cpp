@@ -16,7 +16,7 @@ using test::read_whole;
 using test::WholeRecording;
 
 /// Two made-up hands in four frames, the left one away in the last two.
-const std::string kStored = NADE_TEST_DATA_DIR "/mediapipe_results.json";
+const std::string kMediapipeFile = NADE_TEST_DATA_DIR "/mediapipe_results.json";
 
 constexpr double kLength_m = 0.092;
 constexpr double kDepth_m = 0.5;
@@ -173,7 +173,7 @@ class MediapipeImport : public test::RecordingFiles {
 };
 
 TEST_F(MediapipeImport, StoredFileLoads) {
-  const WholeRecording whole = read_whole(kStored);
+  const WholeRecording whole = read_whole(kMediapipeFile);
   expect_moving_hands(whole, 4);
   ASSERT_EQ(whole.frames.size(), 4u);
   EXPECT_TRUE(other_warnings(whole).empty()) << other_warnings(whole)[0];
@@ -185,7 +185,7 @@ TEST_F(MediapipeImport, StoredFileLoads) {
 }
 
 TEST_F(MediapipeImport, WhatIsGuessedIsSaid) {
-  EXPECT_TRUE(contains(read_whole(kStored).warning(),
+  EXPECT_TRUE(contains(read_whole(kMediapipeFile).warning(),
                        "mediapipe_results.json: MediaPipe does not measure how far a hand is from "
                        "the camera, nor how large: it is put 0.5 m away and made as long as the "
                        "generic hand, 92 mm from wrist to middle knuckle"));

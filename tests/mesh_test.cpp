@@ -20,8 +20,6 @@ namespace {
 using test::BruteForce;
 using test::Random;
 
-constexpr double kAnywhere = 1e9;
-
 std::unique_ptr<MeshSurface> build(const TriangleSoup& soup) {
   auto mesh = MeshSurface::build(soup, "test");
   EXPECT_TRUE(mesh.ok()) << (mesh.ok() ? "" : mesh.error().message);
@@ -30,7 +28,7 @@ std::unique_ptr<MeshSurface> build(const TriangleSoup& soup) {
 
 double signed_distance(const Surface& surface, const Vec3& query) {
   SurfaceHint hint;
-  return surface.closest_point(query, kAnywhere, hint)->signed_distance;
+  return surface.closest_point(query, test::kAnywhere, hint)->signed_distance;
 }
 
 Eigen::AlignedBox3d box_of(const TriangleSoup& soup) {
@@ -100,7 +98,7 @@ void expect_brute_force(const TriangleSoup& soup, const TriangleSoup& repaired,
   for (int i = 0; i < counts.points; ++i) {
     const Vec3 query = random.point(low, high);
     SurfaceHint hint{i % 3 == 0 ? random.below(4000) : SurfaceHint::kNone};
-    const auto ours = mesh->closest_point(query, kAnywhere, hint);
+    const auto ours = mesh->closest_point(query, test::kAnywhere, hint);
     ASSERT_TRUE(ours.has_value());
     ASSERT_NEAR(std::abs(ours->signed_distance), brute.distance(query), 1e-6) << "point " << i;
   }
@@ -205,7 +203,7 @@ TEST(Mesh, TipOfThinTrianglesPointsUp) {
       cone.triangles.push_back({1, next, 2 + i});
     }
     SurfaceHint hint;
-    const auto point = build(cone)->closest_point({0.0, 0.2, 0.0}, kAnywhere, hint);
+    const auto point = build(cone)->closest_point({0.0, 0.2, 0.0}, test::kAnywhere, hint);
     EXPECT_NEAR(point->normal.y(), 1.0, 1e-6) << count;
     EXPECT_NEAR(point->signed_distance, 0.1, 1e-6) << count;
   }

@@ -117,9 +117,9 @@ TEST(ObjectFile, PlacingSurvivesAHeader) {
   placing.placement.pose.position = Vec3(0.1, -0.2, 1.0 / 3.0);
   placing.placement.pose.rotation = Quat(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()));
   placing.placement.scale = 1.25;
-  const std::string json = with_placing(R"({"method":"paper"})", placing);
-  EXPECT_NE(json.find(R"("method":"paper")"), std::string::npos);
-  const auto read = placing_from(json, "r.jsonl");
+  const std::string header = with_placing(R"({"method":"paper"})", placing);
+  EXPECT_NE(header.find(R"("method":"paper")"), std::string::npos);
+  const auto read = placing_from(header, "r.jsonl");
   ASSERT_TRUE(read.ok());
   ASSERT_TRUE(read->has_value());
   const ObjectPlacing& back = **read;
@@ -135,8 +135,8 @@ TEST(ObjectFile, AHeaderHasTheNameOfAMeshFileOnly) {
   EXPECT_EQ(object_name("../models/cat.obj"), "cat.obj");
   EXPECT_EQ(object_name("sphere:0.06"), "sphere:0.06");
   EXPECT_EQ(object_name("dog:alive"), "dog:alive");
-  const std::string json = with_placing("{}", {"/home/me/cat.obj", {}});
-  EXPECT_EQ(json.find("/home"), std::string::npos);
+  const std::string header = with_placing("{}", {"/home/me/cat.obj", {}});
+  EXPECT_EQ(header.find("/home"), std::string::npos);
 }
 
 TEST(ObjectFile, TheMeshOfAHeaderIsTheOneBesideTheRecording) {
@@ -152,16 +152,16 @@ TEST(ObjectFile, TheMeshOfAHeaderIsTheOneBesideTheRecording) {
 }
 
 TEST(ObjectFile, HeaderWithoutAnObjectHasNoPlacing) {
-  for (const char* json : {"", "{}", R"({"method":"paper"})"}) {
-    const auto read = placing_from(json, "r.jsonl");
+  for (const char* header : {"", "{}", R"({"method":"paper"})"}) {
+    const auto read = placing_from(header, "r.jsonl");
     ASSERT_TRUE(read.ok());
     EXPECT_FALSE(read->has_value());
   }
 }
 
 TEST(ObjectFile, BadPlacingInAHeaderIsNamed) {
-  const auto message = [](const char* json) {
-    const auto read = placing_from(json, "r.jsonl");
+  const auto message = [](const char* header) {
+    const auto read = placing_from(header, "r.jsonl");
     return read.ok() ? std::string() : read.error().message;
   };
   EXPECT_EQ(message(R"({"object":7})"), "r.jsonl: header: object: expected a text");

@@ -139,10 +139,11 @@ TEST(ProxyMotion, AHandThatLeavesFarFromThePersonsOwnComesBack) {
 /// Skin that the person's own hovers over is drawn down to the ball and stays on it, however the
 /// ball turns under it: it has landed, and needs no cushion to land on.
 TEST(ProxyMotion, AStrokeRunsOverABallAndOffItWithoutAKick) {
-  struct Stroke {
+  struct Crossing {
     double radius_m, depth_m, tilt_rad;
   };
-  for (const Stroke& stroke : {Stroke{0.06, 0.005, 0.3}, {0.06, 0.0, 0.3}, {0.15, -0.004, 0.0}}) {
+  for (const Crossing& stroke :
+       {Crossing{0.06, 0.005, 0.3}, {0.06, 0.0, 0.3}, {0.15, -0.004, 0.0}}) {
     const SphereSurface surface(stroke.radius_m);
     const Object object(surface, {{{0.0, -stroke.radius_m, 0.0}, Quat::Identity()}, 1.0});
     HandCorrector corrector(settling());

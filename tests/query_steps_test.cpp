@@ -26,7 +26,7 @@ constexpr std::int64_t kEndless = std::numeric_limits<std::int64_t>::max();
 /// What the query may take that uses the frame's up.
 constexpr std::int64_t kLastQuery = 2 * kMostSteps + kMostWindingSteps;
 
-std::unique_ptr<MeshSurface> build(const TriangleSoup& soup) {
+std::unique_ptr<MeshSurface> mesh_of(const TriangleSoup& soup) {
   return MeshSurface::build(soup, "mesh").value();
 }
 
@@ -93,7 +93,7 @@ TEST(QuerySteps, ATangleTakesNoMoreThanAllowed) {
 
 TEST(QuerySteps, CutShortTheAnswerIsStillOnTheSurfaceAndItsSideRight) {
   // From the middle of a ball every triangle is as far.
-  const auto ball = build(test::icosphere(0.15F, 6));
+  const auto ball = mesh_of(test::icosphere(0.15F, 6));
   for (const double off_m : {0.0, 1e-5, 1e-3}) {
     StepLimit limit(kEndless);
     SurfaceHint hint;
@@ -142,16 +142,16 @@ std::int64_t most_in_a_frame(MeshSurface& mesh, Method method, TriangleSoup* thr
 }
 
 TEST(QuerySteps, AFrameOnASurfaceTakesAFraction) {
-  const auto ball = build(test::icosphere(0.1F, 4));
+  const auto ball = mesh_of(test::icosphere(0.1F, 4));
   for (const Method method : {Method::paper, Method::nade}) {
     EXPECT_LT(most_in_a_frame(*ball, method), kMostFrameSteps / 4);
   }
 }
 
 TEST(QuerySteps, AFrameOnATangleOrAmongThrownVerticesIsBounded) {
-  const auto knot = build(tangle(5'000));
+  const auto knot = mesh_of(tangle(5'000));
   TriangleSoup ball = test::icosphere(0.1F, 4);
-  const auto torn = build(ball);
+  const auto torn = mesh_of(ball);
   for (const Method method : {Method::paper, Method::nade}) {
     EXPECT_LE(most_in_a_frame(*knot, method), kMostFrameSteps + kLastQuery);
     EXPECT_LE(most_in_a_frame(*torn, method, &ball), kMostFrameSteps + kLastQuery);

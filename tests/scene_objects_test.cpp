@@ -22,7 +22,6 @@ namespace {
 
 using test::kFrame_ns;
 
-constexpr double kFrame_s = 1e-9 * kFrame_ns;
 constexpr std::array kMethods{Method::paper, Method::nade};
 
 CorrectorOptions by(Method method) {
@@ -31,17 +30,13 @@ CorrectorOptions by(Method method) {
   return options;
 }
 
-Placement upright(const Vec3& position) { return {{position, Quat::Identity()}, 1.0}; }
 Placement turned(const Vec3& position, double turn_rad) {
   return {{position, Quat(Eigen::AngleAxisd(turn_rad, Vec3::UnitY()))}, 1.0};
 }
 
-/// Its top at y = 0.
-std::unique_ptr<MeshSurface> table() { return test::block({0.2F, 0.02F, 0.15F}); }
-
 /// Comes down to `depth_m` in a second, then goes to and fro by 5 cm.
 HandPose stroking(int frame, double depth_m, const Vec3& at = Vec3::Zero()) {
-  const double time_s = frame * kFrame_s;
+  const double time_s = frame * test::kFrame_s;
   const double down = std::min(1.0, time_s);
   const double along_m = 0.05 * std::sin(3.0 * std::max(0.0, time_s - 1.0));
   return test::pressed_hand(-0.08 + down * (0.08 + depth_m), 0.0, at + Vec3(0.0, 0.0, along_m));
@@ -71,9 +66,9 @@ TEST(SceneObjects, AreKnownByTheirIds) {
   const SphereSurface ball(0.05);
   Scene scene;
   EXPECT_TRUE(scene.add(7, ball));
-  EXPECT_TRUE(scene.add(8, ball, upright({0.0, 1.0, 0.0})));
-  EXPECT_FALSE(scene.add(7, ball, upright({0.0, 2.0, 0.0})));
-  EXPECT_TRUE(scene.add(9, ball, upright({0.0, 3.0, 0.0})));
+  EXPECT_TRUE(scene.add(8, ball, test::upright({0.0, 1.0, 0.0})));
+  EXPECT_FALSE(scene.add(7, ball, test::upright({0.0, 2.0, 0.0})));
+  EXPECT_TRUE(scene.add(9, ball, test::upright({0.0, 3.0, 0.0})));
   EXPECT_EQ(scene.size(), 3U);
   EXPECT_EQ(scene.find(7)->placement(), Placement{});
   EXPECT_TRUE(scene.remove(7));
@@ -82,10 +77,10 @@ TEST(SceneObjects, AreKnownByTheirIds) {
   EXPECT_FALSE(scene.set_feel(7, {}));
   EXPECT_FALSE(scene.deformed(7));
   EXPECT_EQ(scene.find(7), nullptr);
-  EXPECT_EQ(scene.find(9)->placement(), upright({0.0, 3.0, 0.0}));
-  EXPECT_TRUE(scene.place(9, upright({0.0, 4.0, 0.0})));
-  EXPECT_EQ(scene.find(9)->placement(), upright({0.0, 4.0, 0.0}));
-  EXPECT_EQ(scene.find(8)->placement(), upright({0.0, 1.0, 0.0}));
+  EXPECT_EQ(scene.find(9)->placement(), test::upright({0.0, 3.0, 0.0}));
+  EXPECT_TRUE(scene.place(9, test::upright({0.0, 4.0, 0.0})));
+  EXPECT_EQ(scene.find(9)->placement(), test::upright({0.0, 4.0, 0.0}));
+  EXPECT_EQ(scene.find(8)->placement(), test::upright({0.0, 1.0, 0.0}));
   EXPECT_EQ(scene.size(), 2U);
 }
 
@@ -93,18 +88,18 @@ TEST(SceneObjects, AreKnownByTheirIds) {
 TEST(SceneObjects, OneAloneIsAsByItself) {
   const SphereSurface ball(0.15);
   const PlaneSurface plane;
-  const auto top = table();
+  const auto top = test::table();
   const std::array<const Surface*, 3> surfaces{&ball, &plane, top.get()};
   for (const Method method : kMethods) {
     for (std::size_t which = 0; which < surfaces.size(); ++which) {
       SCOPED_TRACE(std::string(name_of(method)) + " " + std::to_string(which));
       Scene scene;
-      scene.add(5, *surfaces[which], upright({0.0, -2.0, 0.0}));
+      scene.add(5, *surfaces[which], test::upright({0.0, -2.0, 0.0}));
       HandCorrector in_scene(by(method));
       HandCorrector alone(by(method));
       int corrected = 0;
       for (int i = 0; i < 270; ++i) {
-        const double swing = std::sin(i * kFrame_s);
+        const double swing = std::sin(i * test::kFrame_s);
         Placement placement = turned({0.02 * swing, which == 0 ? -0.15 : 0.0, 0.0}, 0.3 * swing);
         placement.scale = 1.0 + 0.02 * swing;
         if (i < 30) placement.pose.position.y() -= 2.0;
@@ -132,7 +127,7 @@ TEST(SceneObjects, OneAloneIsAsByItself) {
 
 /// Of 1,000, half of which move.
 TEST(SceneObjects, ThoseOutOfReachChangeNothing) {
-  const auto top = table();
+  const auto top = test::table();
   const SphereSurface ball(0.1);
   const BoxSurface box({0.3, 0.1, 0.2});
   for (const Method method : kMethods) {
@@ -168,7 +163,7 @@ TEST(SceneObjects, ThoseOutOfReachChangeNothing) {
 /// What is known of the table stays: it is the same hand, bit for bit. Below, the table is known
 /// anew in each frame.
 TEST(SceneObjects, OneThatRollsBesideTheHandDisturbsNothing) {
-  const auto top = table();
+  const auto top = test::table();
   const SphereSurface ball(0.04);
   const BoxSurface door({0.4, 1.0, 0.02});
   for (const bool is_door : {false, true}) {
@@ -178,12 +173,12 @@ TEST(SceneObjects, OneThatRollsBesideTheHandDisturbsNothing) {
     Scene rolling;
     for (Scene* const scene : {&still, &rolling}) {
       scene->add(1, *top);
-      scene->add(2, beside, upright({0.0, 0.04, 0.35}));
+      scene->add(2, beside, test::upright({0.0, 0.04, 0.35}));
     }
     HandCorrector one(test::settling());
     HandCorrector other(test::settling());
     for (int i = 0; i < 270; ++i) {
-      const double swing = std::sin(4.0 * i * kFrame_s);
+      const double swing = std::sin(4.0 * i * test::kFrame_s);
       rolling.place(2, turned({0.1 * swing, 0.04, 0.35}, is_door ? 0.02 * swing : 5.0 * swing));
       const HandPose tracked = stroking(i, 0.02);
       ASSERT_TRUE(test::same_bits(one.update(tracked, still, i * kFrame_ns).pose,
@@ -199,7 +194,7 @@ TEST(SceneObjects, OneThatStrikesTheFingersDoesNotMoveThePalmOffTheTable) {
   const SphereSurface ball(0.03);
   Scene scene;
   scene.add(1, *top);
-  scene.add(2, ball, upright({0.0, 0.03, -0.4}));
+  scene.add(2, ball, test::upright({0.0, 0.03, -0.4}));
   const Object on_table(*top);
   HandCorrector corrector(test::settling());
   PopMeter pops;
@@ -207,7 +202,7 @@ TEST(SceneObjects, OneThatStrikesTheFingersDoesNotMoveThePalmOffTheTable) {
   for (int i = 0; i < 270; ++i) {
     const double forth = std::clamp((i - 100) / 80.0, 0.0, 2.0);
     const double z_m = -0.4 + 0.29 * (forth < 1.0 ? forth : 2.0 - forth);
-    scene.place(2, upright({0.0, 0.03, z_m}));
+    scene.place(2, test::upright({0.0, 0.03, z_m}));
     const HandPose tracked = test::on_the_way_down(i, 60, 0.01);
     const CorrectedHand& hand = corrector.update(tracked, scene, i * kFrame_ns);
     for (std::size_t k = 0; k < hand.skin_contact_count; ++k) {
@@ -224,7 +219,7 @@ TEST(SceneObjects, OneThatStrikesTheFingersDoesNotMoveThePalmOffTheTable) {
 
 /// Two tables that meet under the hand are one, also where they stand on a cart.
 TEST(SceneObjects, AHandSlidesFromOneToTheNext) {
-  const auto half = table();
+  const auto half = test::table();
   const auto whole = test::block({0.4F, 0.02F, 0.15F});
   for (const Method method : kMethods) {
     for (const double speed_mps : {0.0, 1.0}) {
@@ -237,13 +232,13 @@ TEST(SceneObjects, AHandSlidesFromOneToTheNext) {
       for (int i = 0; i < 270; ++i) {
         const double down = std::min(1.0, i / 60.0);
         const double along = std::clamp((i - 90) / 90.0, 0.0, 1.0);
-        const Vec3 cart(0.0, 0.0, speed_mps * i * kFrame_s);
-        halves.place(1, upright(cart + Vec3(-0.2, 0.0, 0.0)));
-        halves.place(2, upright(cart + Vec3(0.2, 0.0, 0.0)));
+        const Vec3 cart(0.0, 0.0, speed_mps * i * test::kFrame_s);
+        halves.place(1, test::upright(cart + Vec3(-0.2, 0.0, 0.0)));
+        halves.place(2, test::upright(cart + Vec3(0.2, 0.0, 0.0)));
         const HandPose tracked = test::pressed_hand(-0.08 + 0.095 * down, 0.0,
                                                     cart + Vec3(-0.15 + 0.3 * along, 0.0, 0.0));
         const HandPose one =
-            on_one.update(tracked, Object(*whole, upright(cart)), i * kFrame_ns).pose;
+            on_one.update(tracked, Object(*whole, test::upright(cart)), i * kFrame_ns).pose;
         const HandPose two = on_two.update(tracked, halves, i * kFrame_ns).pose;
         ASSERT_LT(largest_motion(one, two), 5e-4) << "frame " << i;
       }
@@ -259,7 +254,7 @@ TEST(SceneObjects, AHandSlidesFromTheTableOntoABall) {
     SCOPED_TRACE(name_of(method));
     Scene scene;
     scene.add(1, *top);
-    scene.add(2, ball, upright({0.2, -0.02, 0.0}));
+    scene.add(2, ball, test::upright({0.2, -0.02, 0.0}));
     HandCorrector corrector(by(method));
     PopMeter pops;
     bool touched_ball = false;
@@ -280,17 +275,17 @@ TEST(SceneObjects, AHandSlidesFromTheTableOntoABall) {
 
 /// The floor and a wall beside it stand. As on a cart that is the only thing in the world.
 TEST(SceneObjects, AHandRidesOnACartWhileOthersStand) {
-  const auto cart = table();
+  const auto cart = test::table();
   const PlaneSurface floor;
   const BoxSurface wall({2.0, 1.0, 0.05});
   Scene scene;
   scene.add(1, *cart);
-  scene.add(2, floor, upright({0.0, -0.25, 0.0}));
-  scene.add(3, wall, upright({0.0, 0.0, -0.4}));
+  scene.add(2, floor, test::upright({0.0, -0.25, 0.0}));
+  scene.add(3, wall, test::upright({0.0, 0.0, -0.4}));
   HandCorrector among(test::settling());
   HandCorrector alone(test::settling());
   for (int i = 0; i < 270; ++i) {
-    const double time_s = std::max(0.0, i * kFrame_s - 1.0);
+    const double time_s = std::max(0.0, i * test::kFrame_s - 1.0);
     const Placement place = turned({0.4 * time_s * time_s, 0.0, 0.0}, 0.2 * time_s);
     scene.place(1, place);
     const HandPose tracked = moved(test::on_the_way_down(i, 80, 0.02), place.pose);
@@ -307,16 +302,17 @@ TEST(SceneObjects, AHandRidesOnACartWhileOthersStand) {
 }
 
 TEST(SceneObjects, AHandOnATableRidesOnItWhileAnotherMoves) {
-  const auto top = table();
+  const auto top = test::table();
   const SphereSurface fan(0.05);
   Scene scene;
   scene.add(1, *top);
-  scene.add(2, fan, upright({0.0, 0.05, 0.3}));
+  scene.add(2, fan, test::upright({0.0, 0.05, 0.3}));
   HandCorrector corrector(test::settling());
   for (int i = 0; i < 270; ++i) {
-    const double swing = i < 90 ? 0.0 : std::sin(2.0 * std::numbers::pi * kFrame_s * (i - 90));
-    scene.place(1, upright({0.0, 0.02 * swing, 0.0}));
-    scene.place(2, upright({0.1 * swing, 0.05, 0.3}));
+    const double swing =
+        i < 90 ? 0.0 : std::sin(2.0 * std::numbers::pi * test::kFrame_s * (i - 90));
+    scene.place(1, test::upright({0.0, 0.02 * swing, 0.0}));
+    scene.place(2, test::upright({0.1 * swing, 0.05, 0.3}));
     const HandPose drawn =
         corrector.update(test::on_the_way_down(i, 60, 0.015), scene, i * kFrame_ns).pose;
     if (i < 70) continue;
@@ -333,8 +329,8 @@ TEST(SceneObjects, AHandComesSlowlyBackFromOneThatIsRemoved) {
     for (const bool leaves_floor : {false, true}) {
       SCOPED_TRACE(std::string(name_of(method)) + (leaves_floor ? " floor" : ""));
       Scene scene;
-      scene.add(1, ball, upright({0.0, -0.15, 0.0}));
-      if (leaves_floor) scene.add(2, floor, upright({0.0, -0.15, 0.0}));
+      scene.add(1, ball, test::upright({0.0, -0.15, 0.0}));
+      if (leaves_floor) scene.add(2, floor, test::upright({0.0, -0.15, 0.0}));
       HandCorrector corrector(by(method));
       PopMeter pops;
       HandPose tracked;
@@ -360,7 +356,7 @@ TEST(SceneObjects, AHandComesSlowlyOutOfOneThatIsAdded) {
     SCOPED_TRACE(is_put ? "put" : "added");
     Scene scene;
     scene.add(1, plane);
-    if (is_put) scene.add(2, ball, upright({0.0, 0.0, 9.0}));
+    if (is_put) scene.add(2, ball, test::upright({0.0, 0.0, 9.0}));
     HandCorrector corrector(test::settling());
     PopMeter pops;
     HandPose drawn;
@@ -383,12 +379,12 @@ TEST(SceneObjects, ContactsSayWhatTouchesWhatAndHow) {
   for (const Method method : kMethods) {
     SCOPED_TRACE(name_of(method));
     Scene scene;
-    scene.add(11, left, upright({-0.2, -0.02, 0.0}));
-    scene.add(22, right, upright({0.2, -0.02, 0.0}));
+    scene.add(11, left, test::upright({-0.2, -0.02, 0.0}));
+    scene.add(22, right, test::upright({0.2, -0.02, 0.0}));
     HandCorrector corrector(by(method));
     const CorrectedHand* hand = nullptr;
     for (int i = 0; i < 180; ++i) {
-      const double along_m = speed_mps * (std::max(i, 90) - 90) * kFrame_s;
+      const double along_m = speed_mps * (std::max(i, 90) - 90) * test::kFrame_s;
       const HandPose tracked =
           test::pressed_hand(std::min(0.02, -0.08 + 0.1 * i / 60.0), 0.0, {0.0, 0.0, along_m});
       hand = &corrector.update(tracked, scene, i * kFrame_ns);
@@ -421,24 +417,24 @@ TEST(SceneObjects, ContactsSayWhatTouchesWhatAndHow) {
 }
 
 TEST(SceneObjects, AskedAgainTheAnswerIsTheSame) {
-  const auto top = table();
+  const auto top = test::table();
   const SphereSurface ball(0.06);
   for (const Method method : kMethods) {
     SCOPED_TRACE(name_of(method));
     Scene scene;
     scene.add(1, *top);
-    scene.add(2, ball, upright({0.0, -0.02, -0.1}));
+    scene.add(2, ball, test::upright({0.0, -0.02, -0.1}));
     HandCorrector once(by(method));
     HandCorrector twice(by(method));
     for (int i = 0; i < 150; ++i) {
-      scene.place(2, upright({0.05 * std::sin(i * kFrame_s), -0.02, -0.1}));
+      scene.place(2, test::upright({0.05 * std::sin(i * test::kFrame_s), -0.02, -0.1}));
       const HandPose tracked = stroking(i, 0.02);
       const HandPose expected = once.update(tracked, scene, i * kFrame_ns).pose;
       ASSERT_TRUE(test::same_bits(expected, twice.update(tracked, scene, i * kFrame_ns).pose));
       ASSERT_TRUE(test::same_bits(expected, twice.update(tracked, scene, i * kFrame_ns).pose));
     }
     // What changed is another question: the hand is out of what came up.
-    scene.place(1, upright({0.0, 0.01, 0.0}));
+    scene.place(1, test::upright({0.0, 0.01, 0.0}));
     const HandPose before = twice.update(stroking(149, 0.02), scene, 149 * kFrame_ns).pose;
     const HandPose expected = once.update(stroking(149, 0.02), scene, 149 * kFrame_ns).pose;
     EXPECT_TRUE(test::same_bits(before, expected));
@@ -446,21 +442,21 @@ TEST(SceneObjects, AskedAgainTheAnswerIsTheSame) {
 }
 
 TEST(SceneObjects, AFrameAllocatesNothing) {
-  const auto top = table();
+  const auto top = test::table();
   const SphereSurface ball(0.06);
   for (const Method method : kMethods) {
     Scene scene;
     scene.add(1, *top);
     for (ObjectId id = 2; id < 100; ++id) {
-      scene.add(id, ball, upright({0.0, -0.05, 0.1 * static_cast<double>(id)}));
+      scene.add(id, ball, test::upright({0.0, -0.05, 0.1 * static_cast<double>(id)}));
     }
     HandCorrector corrector(by(method));
     for (int i = 0; i < 150; ++i) {
       const HandPose tracked = stroking(i, 0.02, {0.0, 0.0, 0.01 * i});
       const auto count = test::allocations_of([&] {
         for (ObjectId id = 2; id < 50; ++id) {
-          const double z_m = 0.1 * static_cast<double>(id) + 0.02 * std::sin(i * kFrame_s);
-          scene.place(id, upright({0.0, -0.05, z_m}));
+          const double z_m = 0.1 * static_cast<double>(id) + 0.02 * std::sin(i * test::kFrame_s);
+          scene.place(id, test::upright({0.0, -0.05, z_m}));
         }
         SettleOptions feel;
         feel.softness_m = i % 2 == 0 ? 0.0 : 0.005;
@@ -480,7 +476,7 @@ TEST(SceneObjects, OneThatDeformsIsLookedForWhereItIsNow) {
   const auto surface = MeshSurface::build(soup, "block").value();
   Scene scene;
   scene.add(1, *surface);
-  scene.add(2, *surface, upright({5.0, 0.0, 0.0}));
+  scene.add(2, *surface, test::upright({5.0, 0.0, 0.0}));
   HandCorrector corrector(test::settling());
   const HandPose tracked = test::pressed_hand(0.02);
   EXPECT_TRUE(test::same_bits(tracked, corrector.update(tracked, scene, 0).pose));
@@ -518,8 +514,8 @@ TEST(SceneObjects, TheFeelIsThatOfTheOneThatIsTouched) {
   Scene scene;
   SettleOptions soft;
   soft.softness_m = 0.015;
-  scene.add(1, half, upright({-0.2, -0.02, 0.0}), soft);
-  scene.add(2, half, upright({0.2, -0.02, 0.0}));
+  scene.add(1, half, test::upright({-0.2, -0.02, 0.0}), soft);
+  scene.add(2, half, test::upright({0.2, -0.02, 0.0}));
   HandCorrector corrector(test::settling());
   std::array<double, 2> lowest_m{};
   for (int i = 0; i < 400; ++i) {
@@ -541,7 +537,7 @@ TEST(SceneObjects, AHandAmongHundredsLiesOnTheNearest) {
   test::Random random;
   for (ObjectId id = 2; id < 400; ++id) {
     const Vec3 where = random.point({-0.2, -0.25, -0.2}, {0.2, -0.1, 0.2});
-    scene.add(id, pebble, upright(where));
+    scene.add(id, pebble, test::upright(where));
   }
   scene.add(1, plane);
   HandCorrector corrector(test::settling());
@@ -561,7 +557,7 @@ TEST(SceneObjects, OfNoneIsNothing) {
   const HandPose tracked = test::pressed_hand(0.02);
   EXPECT_TRUE(test::same_bits(tracked, corrector.update(tracked, scene, 0).pose));
   scene.add(1, ball, {{}, 0.0});
-  scene.add(2, ball, upright(Vec3::Constant(std::nan(""))));
+  scene.add(2, ball, test::upright(Vec3::Constant(std::nan(""))));
   EXPECT_TRUE(test::same_bits(tracked, corrector.update(tracked, scene, kFrame_ns).pose));
 }
 

@@ -99,12 +99,12 @@ TEST(Skeleton, AxesAreTheDerivativesOfTheTip) {
         measure_chain(noisy_hand(random, side), digit_at(static_cast<std::size_t>(i) % 5));
     const DigitAxes axes = chain_axes(chain, chain.angles);
     for (std::size_t k = 0; k < kDigitFreedoms; ++k) {
-      constexpr double kStep = 1e-6;
+      constexpr double kBend_rad = 1e-6;
       DigitFreedoms moved = freedoms_of(chain.angles);
-      moved[static_cast<Eigen::Index>(k)] += kStep;
+      moved[static_cast<Eigen::Index>(k)] += kBend_rad;
       const Vec3 tip = pose_chain(chain, with_freedoms(chain.angles, moved))[kHingeCount].position;
       const Vec3 expected = axes.axis[k].cross(axes.tip - axes.center[k]);
-      EXPECT_LT(((tip - axes.tip) / kStep - expected).norm(), 1e-6);
+      EXPECT_LT(((tip - axes.tip) / kBend_rad - expected).norm(), 1e-6);
     }
   }
 }

@@ -47,7 +47,7 @@ class StudyCheckTest : public test::StudyFiles {
   }
 };
 
-bool has(const std::string& text, const std::string& part) {
+bool says(const std::string& text, const std::string& part) {
   if (text.find(part) != std::string::npos) return true;
   std::printf("in: %s", text.c_str());
   return false;
@@ -69,35 +69,36 @@ TEST_F(StudyCheckTest, AnAnswerOutOfRangeIsNamed) {
   replace_line(
       "data/P2/answers.csv", 2,
       "P2,1,1," + trial.object + "," + std::string(name_of(trial.method)) + ",Q1,8,0.5,1,given");
-  EXPECT_TRUE(has(problem(), "P2/answers.csv: line 2: answer: expected 1 to 7, found '8'"));
+  EXPECT_TRUE(says(problem(), "P2/answers.csv: line 2: answer: expected 1 to 7, found '8'"));
 }
 
 TEST_F(StudyCheckTest, AnAnswerGivenTwiceIsNamed) {
   const std::string content = content_of("data/P2/answers.csv");
   const std::size_t at = content.find('\n') + 1;
   add("data/P2/answers.csv", content.substr(at, content.find('\n', at) + 1 - at));
-  EXPECT_TRUE(has(problem(), "answers.csv: line 20: expected one given answer to Q1 of trial 1"));
+  EXPECT_TRUE(says(problem(), "answers.csv: line 20: expected one given answer to Q1 of trial 1"));
 }
 
 TEST_F(StudyCheckTest, AMissingAnswerIsNamed) {
   const std::string content = content_of("data/P2/answers.csv");
   write("data/P2/answers.csv", content.substr(0, content.rfind("P2,")));
-  EXPECT_TRUE(has(problem(), "P2/answers.csv: expected answers to all of 6 trials"));
+  EXPECT_TRUE(says(problem(), "P2/answers.csv: expected answers to all of 6 trials"));
 }
 
 TEST_F(StudyCheckTest, ACutTableIsNamed) {
   add("data/P2/answers.csv", "P2,6");
-  EXPECT_TRUE(has(problem(), "P2/answers.csv: cut off in its last line"));
+  EXPECT_TRUE(says(problem(), "P2/answers.csv: cut off in its last line"));
 }
 
 TEST_F(StudyCheckTest, ADamagedLogIsNamed) {
   replace_line("data/P2/log.jsonl", 3, "{]");
-  EXPECT_TRUE(has(problem(), "P2/log.jsonl: line 3: expected an object with an \"event\""));
+  EXPECT_TRUE(says(problem(), "P2/log.jsonl: line 3: expected an object with an \"event\""));
 }
 
 TEST_F(StudyCheckTest, ADamagedPlanIsNamed) {
   replace_line("data/P2/plan.json", 2, "\"format\": 7,");
-  EXPECT_TRUE(has(problem(), "P2/plan.json: format: expected \"nade-study-participant\", found 7"));
+  EXPECT_TRUE(
+      says(problem(), "P2/plan.json: format: expected \"nade-study-participant\", found 7"));
   EXPECT_EQ(checked().participants.size(), 2u);
 }
 
@@ -105,8 +106,8 @@ TEST_F(StudyCheckTest, ACutRecordingIsNamed) {
   const std::string name = recording(3, "corrected");
   const std::string content = content_of(name);
   write(name, content.substr(0, content.size() - 300));
-  EXPECT_TRUE(has(problem(), "cut off"));
-  EXPECT_TRUE(has(problem(), "-attempt") || has(problem(), "corrected.jsonl.gz"));
+  EXPECT_TRUE(says(problem(), "cut off"));
+  EXPECT_TRUE(says(problem(), "-attempt") || says(problem(), "corrected.jsonl.gz"));
 }
 
 TEST_F(StudyCheckTest, DamagedGzipIsNamed) {
@@ -114,12 +115,12 @@ TEST_F(StudyCheckTest, DamagedGzipIsNamed) {
   std::string content = content_of(name);
   content[content.size() / 2] = static_cast<char>(~content[content.size() / 2]);
   write(name, content);
-  EXPECT_TRUE(has(problem(), "tracked.jsonl.gz: "));
+  EXPECT_TRUE(says(problem(), "tracked.jsonl.gz: "));
 }
 
 TEST_F(StudyCheckTest, AMissingRecordingIsNamed) {
   std::filesystem::remove(path(recording(1, "tracked")));
-  EXPECT_TRUE(has(problem(), "tracked.jsonl.gz: expected a recording, found no such file"));
+  EXPECT_TRUE(says(problem(), "tracked.jsonl.gz: expected a recording, found no such file"));
 }
 
 TEST_F(StudyCheckTest, AShortRecordingIsNamed) {
@@ -130,14 +131,14 @@ TEST_F(StudyCheckTest, AShortRecordingIsNamed) {
   run("P2", longer);
   std::filesystem::copy_file(path("long"), path(recording(2, "tracked")),
                              std::filesystem::copy_options::overwrite_existing);
-  EXPECT_TRUE(has(problem(), "expected 4 s of motion, found 1.95"));
+  EXPECT_TRUE(says(problem(), "expected 4 s of motion, found 1.95"));
 }
 
 TEST_F(StudyCheckTest, PlansThatDifferAreNamed) {
   Plan other = quick_plan();
   other.scale.points = 5;
   run("P3", other);
-  EXPECT_TRUE(has(problem(), "P3/plan.json: plan.scale: expected the same as P1's"));
+  EXPECT_TRUE(says(problem(), "P3/plan.json: plan.scale: expected the same as P1's"));
 }
 
 TEST_F(StudyCheckTest, AnUnfinishedStudyIsNoDamage) {
@@ -160,13 +161,13 @@ TEST_F(StudyCheckTest, StrangeFilesAreNoted) {
   const StudyCheck check = checked();
   EXPECT_EQ(check.problems, std::vector<std::string>{});
   ASSERT_EQ(check.notes.size(), 1u);
-  EXPECT_TRUE(has(check.notes[0], "P1/notes.txt: is none of the study's files"));
+  EXPECT_TRUE(says(check.notes[0], "P1/notes.txt: is none of the study's files"));
 }
 
 TEST_F(StudyCheckTest, WhatIsNoStudyIsAnError) {
-  EXPECT_TRUE(has(check_study(path("nowhere")).error().message, "expected a study's folder"));
+  EXPECT_TRUE(says(check_study(path("nowhere")).error().message, "expected a study's folder"));
   std::filesystem::create_directory(path("empty"));
-  EXPECT_TRUE(has(check_study(path("empty")).error().message, "expected a folder for each"));
+  EXPECT_TRUE(says(check_study(path("empty")).error().message, "expected a folder for each"));
 }
 
 }  // namespace

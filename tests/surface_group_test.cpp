@@ -21,17 +21,9 @@ namespace {
 
 using test::kFrame_ns;
 
-constexpr double kFrame_s = 1e-9 * kFrame_ns;
-constexpr double kAnywhere = 1e9;
-
 Placement at(const Vec3& position, double scale = 1.0) {
   return {{position, Quat(Eigen::AngleAxisd(0.7, Vec3(1.0, 2.0, 3.0).normalized()))}, scale};
 }
-
-Placement upright(const Vec3& position) { return {{position, Quat::Identity()}, 1.0}; }
-
-/// Its top at y = 0.
-std::unique_ptr<MeshSurface> table() { return test::block({0.2F, 0.02F, 0.15F}); }
 
 TEST(SurfaceGroup, Battery) {
   const SphereSurface ball(0.05);
@@ -52,33 +44,33 @@ TEST(SurfaceGroup, AnswersAsTheMemberThatIsNearest) {
   SurfaceHint hint{0x01234567};  // any is right
   for (int i = 0; i < 1000; ++i) {
     const Vec3 query = random.point(Vec3::Constant(-0.1), Vec3::Constant(0.1));
-    double deepest = kAnywhere;
+    double deepest = test::kAnywhere;
     for (const Object& member : members) {
       SurfaceHint none;
-      const auto found = member.closest_point(query, kAnywhere, none);
+      const auto found = member.closest_point(query, test::kAnywhere, none);
       deepest = std::min(deepest, found->signed_distance);
     }
-    EXPECT_NEAR(group.closest_point(query, kAnywhere, hint)->signed_distance, deepest, 1e-12);
+    EXPECT_NEAR(group.closest_point(query, test::kAnywhere, hint)->signed_distance, deepest, 1e-12);
   }
 }
 
 TEST(SurfaceGroup, OfNoneIsNothing) {
   const SurfaceGroup group({});
   SurfaceHint hint;
-  EXPECT_FALSE(group.closest_point(Vec3::Zero(), kAnywhere, hint));
+  EXPECT_FALSE(group.closest_point(Vec3::Zero(), test::kAnywhere, hint));
   EXPECT_FALSE(group.first_hit({}));
 }
 
 TEST(SurfaceGroup, HasAnotherShapeWhenAMemberMovesOrDeforms) {
-  const auto top = table();
+  const auto top = test::table();
   const SphereSurface ball(0.05);
   SurfaceGroup group({Object(*top), Object(ball)});
   const auto before = group.shape();
   EXPECT_EQ(group.shape(), before);
-  group.place(1, upright({0.0, 0.05, 0.0}));
+  group.place(1, test::upright({0.0, 0.05, 0.0}));
   const auto moved = group.shape();
   EXPECT_NE(moved, before);
-  group.place(1, upright({0.0, 0.05, 0.0}));
+  group.place(1, test::upright({0.0, 0.05, 0.0}));
   EXPECT_EQ(group.shape(), moved);
   top->refit(test::box_mesh({0.2F, 0.02F, 0.15F}).vertices);
   EXPECT_NE(group.shape(), moved);
@@ -86,19 +78,19 @@ TEST(SurfaceGroup, HasAnotherShapeWhenAMemberMovesOrDeforms) {
 
 /// As a program that gathers what is near builds it in each frame.
 TEST(SurfaceGroup, HasAnotherShapeThanTheOneThatWasInItsPlace) {
-  const auto top = table();
+  const auto top = test::table();
   SurfaceGroup group({Object(*top)});
   const auto before = group.shape();
-  group = SurfaceGroup({Object(*top, upright({0.0, 0.02, 0.0}))});
+  group = SurfaceGroup({Object(*top, test::upright({0.0, 0.02, 0.0}))});
   EXPECT_NE(group.shape(), before);
 }
 
 /// Two tables that meet under the hand are one.
 TEST(SurfaceGroup, AHandSlidesFromOneObjectToTheNext) {
-  const auto half = table();
+  const auto half = test::table();
   const auto whole = test::block({0.4F, 0.02F, 0.15F});
-  const SurfaceGroup halves(
-      {Object(*half, upright({-0.2, 0.0, 0.0})), Object(*half, upright({0.2, 0.0, 0.0}))});
+  const SurfaceGroup halves({Object(*half, test::upright({-0.2, 0.0, 0.0})),
+                             Object(*half, test::upright({0.2, 0.0, 0.0}))});
   HandCorrector on_two(test::settling());
   HandCorrector on_one(test::settling());
   for (int i = 0; i < 270; ++i) {
@@ -114,17 +106,17 @@ TEST(SurfaceGroup, AHandSlidesFromOneObjectToTheNext) {
 
 /// While another moved, far off, it was taken for one that sank: the hand fell by 12 mm.
 TEST(SurfaceGroup, AHandDoesNotFallWithAMemberThatIsTakenAway) {
-  const auto base = table();
+  const auto base = test::table();
   const SphereSurface ball(0.06);
   const SphereSurface fan(0.05);
-  SurfaceGroup group({Object(*base, upright({0.0, -0.03, 0.0})),
-                      Object(ball, upright({0.0, -0.06, -0.02})),
-                      Object(fan, upright({1.5, 0.0, 0.0}))});
+  SurfaceGroup group({Object(*base, test::upright({0.0, -0.03, 0.0})),
+                      Object(ball, test::upright({0.0, -0.06, -0.02})),
+                      Object(fan, test::upright({1.5, 0.0, 0.0}))});
   HandCorrector corrector(test::settling());
   HandPose drawn;
   for (int i = 0; i < 200; ++i) {
-    group.place(2, upright({1.5, 0.1 * std::sin(i * kFrame_s), 0.0}));
-    if (i == 150) group.place(1, upright({0.0, -5.0, 0.0}));
+    group.place(2, test::upright({1.5, 0.1 * std::sin(i * test::kFrame_s), 0.0}));
+    if (i == 150) group.place(1, test::upright({0.0, -5.0, 0.0}));
     const HandPose tracked = test::on_the_way_down(i, 90, 0.03);
     const HandPose now = corrector.update(tracked, Object(group), i * kFrame_ns).pose;
     if (i > 140) {
@@ -135,16 +127,17 @@ TEST(SurfaceGroup, AHandDoesNotFallWithAMemberThatIsTakenAway) {
 }
 
 TEST(SurfaceGroup, AHandAtRestRidesOnAMemberThatRisesAndSinks) {
-  const auto top = table();
+  const auto top = test::table();
   const PlaneSurface floor;
-  SurfaceGroup group({Object(floor, upright({0.0, -0.5, 0.0})), Object(*top)});
+  SurfaceGroup group({Object(floor, test::upright({0.0, -0.5, 0.0})), Object(*top)});
   HandCorrector corrector(test::settling());
   const HandPose tracked = test::pressed_hand(0.015);
   HandPose drawn;
   for (int i = 0; i < 270; ++i) {
-    const double swing = i < 90 ? 0.0 : std::sin(2.0 * std::numbers::pi * kFrame_s * (i - 90));
+    const double swing =
+        i < 90 ? 0.0 : std::sin(2.0 * std::numbers::pi * test::kFrame_s * (i - 90));
     const auto allocations = test::allocations_of([&] {
-      group.place(1, upright({0.0, 0.02 * swing, 0.0}));
+      group.place(1, test::upright({0.0, 0.02 * swing, 0.0}));
       drawn = corrector
                   .update(i < 60 ? test::on_the_way_down(i, 60, 0.015) : tracked, Object(group),
                           i * kFrame_ns)

@@ -16,7 +16,7 @@
 namespace nade::viewer {
 namespace {
 
-constexpr double kStep_s = 1.0 / 60.0;
+constexpr double kPicture_s = 1.0 / 60.0;
 
 /// Recordings in a folder of its own.
 class RecordedTest : public test::FolderTest {
@@ -122,7 +122,7 @@ TEST_F(RecordedTest, PlayingCorrectsAsTheCorrectorDoes) {
   for (const RecordedFrame& frame : frames) {
     last = corrector.update(frame.hands[1]->pose, sphere->placed(), frame.time_ns);
   }
-  while (session.playback().playing) session.advance(kStep_s, {});
+  while (session.playback().playing) session.advance(kPicture_s, {});
   ASSERT_TRUE(session.hands()[1]);
   EXPECT_EQ(session.playback().index, frames.size() - 1);
   for (std::size_t joint = 0; joint < kJointCount; ++joint) {
@@ -138,7 +138,7 @@ TEST_F(RecordedTest, ALivingObjectMovesWithTheRecording) {
   Session session(session_setup());
   ASSERT_NO_FATAL_FAILURE(play(session, "a.jsonl"));
   session.playback().loop = false;
-  while (session.playback().playing) session.advance(kStep_s, {});
+  while (session.playback().playing) session.advance(kPicture_s, {});
   Result<LoadedObject> dog = load_object("dog:alive");
   ASSERT_TRUE(dog.ok());
   for (const std::size_t index : {session.playback().index, std::size_t{40}}) {
@@ -148,7 +148,7 @@ TEST_F(RecordedTest, ALivingObjectMovesWithTheRecording) {
   }
   session.close_clip();
   const auto before = session.loaded().soup->vertices;
-  session.advance(kStep_s, {});
+  session.advance(kPicture_s, {});
   EXPECT_FALSE(session.loaded().soup->vertices == before) << "with the mouse's hand, too";
 }
 
@@ -169,7 +169,7 @@ TEST_F(RecordedTest, SeeksStepsAndLoops) {
   session.advance(0.1, {});
   EXPECT_EQ(session.playback().index, 0U) << "from the end to the start";
   session.playback().speed = 0.1;
-  session.advance(kStep_s, {});
+  session.advance(kPicture_s, {});
   EXPECT_EQ(session.playback().index, 0U) << "a tenth of a frame";
 }
 
@@ -178,9 +178,9 @@ TEST_F(RecordedTest, PlaysAnewFromTheEnd) {
   Session session(session_setup());
   ASSERT_NO_FATAL_FAILURE(play(session, "a.jsonl"));
   session.playback().loop = false;
-  while (session.playback().playing) session.advance(kStep_s, {});
+  while (session.playback().playing) session.advance(kPicture_s, {});
   session.play_or_pause();
-  session.advance(kStep_s, {});
+  session.advance(kPicture_s, {});
   EXPECT_TRUE(session.playback().playing);
   EXPECT_LT(session.playback().index, 5U);
   session.play_or_pause();
@@ -307,7 +307,7 @@ TEST_F(RecordedTest, MouseHandIsBackWhenTheRecordingIsPutAway) {
   begin(session);
   session.close_clip();
   EXPECT_EQ(session.clip(), nullptr);
-  for (int i = 0; i < 30; ++i) session.advance(kStep_s, {});
+  for (int i = 0; i < 30; ++i) session.advance(kPicture_s, {});
   ASSERT_TRUE(session.hands()[1]);
   EXPECT_GT(session.figures().of(Figure::penetration).values().size(), 20U);
 }
@@ -316,7 +316,7 @@ TEST_F(RecordedTest, MouseHandIsNoChildsAfterAChildsRecording) {
   make_stroke("a.jsonl", "plane", 0.6);
   Session session(session_setup());
   ASSERT_TRUE(session.show_object("plane").ok());
-  session.advance(kStep_s, {});
+  session.advance(kPicture_s, {});
   ASSERT_TRUE(session.hands()[1]);
   const double own_scale = session.hands()[1]->scale.value_or(0.0);
   ASSERT_TRUE(session.open_clip(path("a.jsonl")).ok());
@@ -324,7 +324,7 @@ TEST_F(RecordedTest, MouseHandIsNoChildsAfterAChildsRecording) {
   ASSERT_TRUE(session.hands()[1]);
   EXPECT_NEAR(session.hands()[1]->scale.value_or(0.0), 0.6 * own_scale, 1e-3);
   session.close_clip();
-  session.advance(kStep_s, {});
+  session.advance(kPicture_s, {});
   ASSERT_TRUE(session.hands()[1]);
   EXPECT_EQ(session.hands()[1]->scale, own_scale);
 }

@@ -15,7 +15,7 @@ using test::read_whole;
 using test::WholeRecording;
 
 /// Two made-up hands in three frames, the left one away in the last.
-const std::string kStored = NADE_TEST_DATA_DIR "/webxr_joints.json";
+const std::string kDumpFile = NADE_TEST_DATA_DIR "/webxr_joints.json";
 
 /// The 25 joints in WebXR's order.
 const std::vector<std::string> kNames{"wrist",
@@ -56,7 +56,7 @@ HandPose hand_in(Handedness side, std::size_t frame) {
 json four(const Quat& q) { return {{"x", q.x()}, {"y", q.y()}, {"z", q.z()}, {"w", q.w()}}; }
 json three(const Vec3& p) { return {{"x", p.x()}, {"y", p.y()}, {"z", p.z()}}; }
 
-using Spelling = std::function<json(const Pose&)>;
+using JointSpelling = std::function<json(const Pose&)>;
 
 /// As XRJointPose has it.
 json transform_of(const Pose& joint) {
@@ -65,7 +65,7 @@ json transform_of(const Pose& joint) {
       {"radius", 0.01}};
 }
 
-json by_name(const HandPose& hand, const Spelling& spelling = transform_of) {
+json by_name(const HandPose& hand, const JointSpelling& spelling = transform_of) {
   json joints = json::object();
   for (std::size_t i = 0; i < kNames.size(); ++i) joints[kNames[i]] = spelling(hand.joints[i + 1]);
   return joints;
@@ -137,14 +137,14 @@ class WebxrDumpImport : public test::RecordingFiles {
 };
 
 TEST_F(WebxrDumpImport, StoredFileLoads) {
-  const WholeRecording whole = read_whole(kStored);
+  const WholeRecording whole = read_whole(kDumpFile);
   expect_frames(whole, 1e-4);
   EXPECT_EQ(whole.header.source, "webxr");
   EXPECT_FALSE(whole.header.hand_scale_known);
 }
 
 TEST_F(WebxrDumpImport, EverySpellingOfAJoint) {
-  const std::vector<Spelling> spellings{
+  const std::vector<JointSpelling> spellings{
       transform_of,
       [](const Pose& joint) {
         return json{{"position", three(joint.position)},
@@ -167,7 +167,7 @@ TEST_F(WebxrDumpImport, EverySpellingOfAJoint) {
         return json{{"transform", {{"matrix", stringified(column_by_column(joint))}}},
                     {"radius", 0.01}};
       }};
-  for (const Spelling& spelling : spellings) {
+  for (const JointSpelling& spelling : spellings) {
     expect_frames(read(frames_of([&](const HandPose& hand) { return by_name(hand, spelling); })),
                   1e-9);
   }

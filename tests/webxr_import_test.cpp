@@ -13,11 +13,11 @@ using test::read_whole;
 using test::WholeRecording;
 
 /// Made with IWER 2.5.0: six frames of its emulated Quest 3 hands, the left one away in frame 3.
-const std::string kStored = NADE_TEST_DATA_DIR "/webxr_actions.json";
+const std::string kWebxrFile = NADE_TEST_DATA_DIR "/webxr_actions.json";
 
 class WebxrImport : public test::RecordingFiles {
  protected:
-  [[nodiscard]] static json stored() { return json::parse(test::read_file(kStored)); }
+  [[nodiscard]] static json stored() { return json::parse(test::read_file(kWebxrFile)); }
   [[nodiscard]] WholeRecording read(const json& recording) const {
     // The order of the members matters, and json sorts them.
     nlohmann::ordered_json ordered;
@@ -28,7 +28,7 @@ class WebxrImport : public test::RecordingFiles {
 };
 
 TEST_F(WebxrImport, StoredFileLoads) {
-  const WholeRecording whole = read_whole(kStored);
+  const WholeRecording whole = read_whole(kWebxrFile);
   EXPECT_EQ(whole.error, "");
   EXPECT_TRUE(whole.warnings.empty());
   EXPECT_EQ(whole.format, RecordingFormat::webxr_actions);
@@ -83,7 +83,7 @@ TEST_F(WebxrImport, JointsAreWhereTheRuntimeHadThem) {
        {0.022927, -0.239250, 0.970687},
        0.006426},
   };
-  const WholeRecording whole = read_whole(kStored);
+  const WholeRecording whole = read_whole(kWebxrFile);
   for (const Truth& truth : truths) {
     const HandPose& hand = whole.frames[truth.frame].hands[index_of(truth.side)]->pose;
     const Pose& joint = hand[truth.joint];
@@ -96,7 +96,7 @@ TEST_F(WebxrImport, JointsAreWhereTheRuntimeHadThem) {
 }
 
 TEST_F(WebxrImport, PalmIsTheMiddleOfTheMiddleMetacarpal) {
-  for (const RecordedFrame& frame : read_whole(kStored).frames) {
+  for (const RecordedFrame& frame : read_whole(kWebxrFile).frames) {
     const HandPose& hand = frame.hands[1]->pose;
     const Vec3 middle =
         0.5 * (hand[Joint::middle_metacarpal].position + hand[Joint::middle_proximal].position);
@@ -162,7 +162,7 @@ TEST_F(WebxrImport, BadInputIsNamed) {
 }
 
 TEST_F(WebxrImport, NothingMayFollowTheFrames) {
-  const std::string text = test::read_file(kStored);
+  const std::string text = test::read_file(kWebxrFile);
   EXPECT_TRUE(contains(read_whole(given("in.json", text + "xyz")).error,
                        "in.json: expected the file's end after the frames, found 'x'"));
 }
@@ -185,7 +185,7 @@ TEST_F(WebxrImport, OddHandsAndTimesAreLeftOutAndCounted) {
 }
 
 TEST_F(WebxrImport, CutOffFileIsReadToItsLastWholeFrame) {
-  const std::string text = test::read_file(kStored);
+  const std::string text = test::read_file(kWebxrFile);
   const WholeRecording whole = read_whole(given("cut.json", text.substr(0, text.size() - 500)));
   EXPECT_EQ(whole.error, "");
   EXPECT_EQ(whole.frames.size(), 5u);

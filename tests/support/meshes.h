@@ -197,6 +197,11 @@ inline std::unique_ptr<MeshSurface> block(const Vec3f& half_size) {
   return MeshSurface::build(shifted(box_mesh(half_size), middle), "block").value();
 }
 
+/// Its top at y = 0.
+inline std::unique_ptr<MeshSurface> table() { return block({0.2F, 0.02F, 0.15F}); }
+
+inline Placement upright(const Vec3& position) { return {{position, Quat::Identity()}, 1.0}; }
+
 /// The numbers of one list of lists, `exports.NAME=[[a,b,c],…]`.
 inline std::vector<std::array<double, 3>> exported_triples(const std::string& text,
                                                            const std::string& name) {

@@ -13,6 +13,7 @@
 namespace nade::test {
 
 inline constexpr std::int64_t kFrame_ns = 11'111'111;
+inline constexpr double kFrame_s = 1e-9 * kFrame_ns;
 
 inline const PlaneSurface kPlane;
 inline const SphereSurface kBall(0.15);

@@ -12,6 +12,9 @@
 
 namespace nade::test {
 
+/// Farther than anything is looked for.
+inline constexpr double kAnywhere = 1e9;
+
 struct BatteryRegion {
   Vec3 low;
   Vec3 high;
@@ -41,7 +44,6 @@ inline void expect_bounds_around(const Surface& surface, const std::vector<Vec3>
 inline void run_surface_battery(const Surface& surface, const BatteryRegion& region) {
   SCOPED_TRACE("NADE_TEST_SEED=" + std::to_string(seed()));
   Random random;
-  constexpr double kAnywhere = 1e9;
   std::vector<Vec3> samples;
   for (int i = 0; i < 2000; ++i) {
     const Ray ray{random.point(region.low, region.high), random.direction()};
