@@ -45,7 +45,7 @@ tsan: setup ## Two hands on one mesh, on two threads, under the thread sanitizer
 test-headset: setup ## All of it in a Debian 13 system, with g++ 14, and `nade xr` on the OpenXR runtime there (root)
 	@scripts/test_xr --all
 
-test-windows: setup-windows ## The C library for Windows, built here and run with wine
+test-windows: setup-windows ## nade.exe and the C libraries for Windows, built here and run with wine
 	@scripts/build release
 	@scripts/test_windows
 

@@ -9,5 +9,9 @@ set(CMAKE_C_FLAGS_INIT "-Wa,-muse-unaligned-vector-move")
 set(CMAKE_CXX_FLAGS_INIT "-Wa,-muse-unaligned-vector-move")
 # What is built needs Windows alone.
 set(CMAKE_EXE_LINKER_FLAGS_INIT -static)
-# Libraries and headers of the system are another's; Eigen is headers alone.
-set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY NEVER)
+# Libraries and headers are those of Debian's packages for mingw-w64; Eigen, headers alone, is the
+# system's, and mingw-w64-packages.cmake has more of that kind.
+set(CMAKE_FIND_ROOT_PATH /usr/x86_64-w64-mingw32)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
+set(ZLIB_USE_STATIC_LIBS ON)

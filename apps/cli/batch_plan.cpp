@@ -1,9 +1,8 @@
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -14,6 +13,7 @@
 #include "batch.h"
 #include "command_files.h"
 #include "commands.h"
+#include "io/operating_system.h"
 #include "nade/io/mesh_file.h"
 #include "nade/io/output_file.h"
 #include "nade/version.h"
@@ -46,13 +46,13 @@ bool is_file(const fs::directory_entry& entry) {
 }
 
 bool is_shut(const fs::directory_entry& folder) {
-  return !folder.is_symlink() && ::access(folder.path().c_str(), R_OK | X_OK) != 0;
+  return !folder.is_symlink() && !os::may_enter(folder.path());
 }
 
 }  // namespace
 
 bool BatchOptions::many() const {
-  return inputs.size() > 1 || output.ends_with('/') || is_folder(output) ||
+  return inputs.size() > 1 || fs::path(output).filename().empty() || is_folder(output) ||
          (inputs.size() == 1 && is_folder(inputs.front()));
 }
 
@@ -181,10 +181,13 @@ std::string recipe_of(const CLI::App& command) {
 }
 
 std::string stamp_of(const std::string& path) {
-  struct stat info {};
-  if (::stat(path.c_str(), &info) != 0) return "none";
-  return fmt::format("{} bytes of {}.{:09}", info.st_size, info.st_mtim.tv_sec,
-                     info.st_mtim.tv_nsec);
+  std::error_code failed;
+  const fs::file_time_type written = fs::last_write_time(path, failed);
+  if (failed) return "none";
+  const auto since_1970 = std::chrono::file_clock::to_sys(written).time_since_epoch();
+  const auto seconds = std::chrono::floor<std::chrono::seconds>(since_1970);
+  return fmt::format("{} bytes of {}.{:09}", fs::file_size(path, failed), seconds.count(),
+                     std::chrono::nanoseconds(since_1970 - seconds).count());
 }
 
 }  // namespace nade::cli

@@ -1,11 +1,10 @@
 #include "console.h"
 
-#include <unistd.h>
-
 #include <chrono>
 #include <cstdio>
 #include <utility>
 
+#include "io/operating_system.h"
 #include "nade/io/plain_text.h"
 
 namespace nade::cli {
@@ -15,8 +14,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kBetween{200};
 
-bool person_looks() { return ::isatty(STDERR_FILENO) == 1; }
-
 }  // namespace
 
 void warn(const std::string& sentence) {
@@ -24,11 +21,11 @@ void warn(const std::string& sentence) {
 }
 
 void say(const std::string& line) {
-  if (person_looks()) std::fprintf(stderr, "%s\n", plain_text(line).c_str());
+  if (os::person_looks()) std::fprintf(stderr, "%s\n", plain_text(line).c_str());
 }
 
 Progress::Progress(std::string what, std::size_t total, std::string unit)
-    : what_(std::move(what)), unit_(std::move(unit)), total_(total), shown_(person_looks()) {}
+    : what_(std::move(what)), unit_(std::move(unit)), total_(total), shown_(os::person_looks()) {}
 
 Progress::~Progress() {
   if (shown_) std::fputs("\r\033[K", stderr);

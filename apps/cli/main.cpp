@@ -7,6 +7,7 @@
 
 #include "commands.h"
 #include "console.h"
+#include "io/operating_system.h"
 #include "nade/version.h"
 
 namespace {
@@ -104,6 +105,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  nade::os::prepare_streams();
   try {
     return run(argc, argv);
   } catch (const std::exception& unforeseen) {  // out of memory, at worst

@@ -1,17 +1,16 @@
 #include "spooled_input.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <utility>
 #include <vector>
 
 #include "command_files.h"
+#include "io/operating_system.h"
 
 namespace nade::cli {
 namespace {
@@ -19,6 +18,17 @@ namespace {
 bool can_be_read_twice(const std::string& name) {
   std::error_code ignored;
   return name != kStandardStream && !std::filesystem::is_other(name, ignored);
+}
+
+/// Whether all of it was written. What cannot be read ends it, and whoever reads the rest says so.
+bool copy(int from, std::FILE* to) {
+  std::vector<char> block(1U << 16U);
+  while (true) {
+    const std::ptrdiff_t count = os::read(from, block.data(), block.size());
+    if (count <= 0) return std::fflush(to) == 0;
+    const auto size = static_cast<std::size_t>(count);
+    if (std::fwrite(block.data(), 1, size, to) != size) return false;
+  }
 }
 
 }  // namespace
@@ -29,39 +39,22 @@ SpooledInput::SpooledInput(const std::string& name)
 Result<SpooledInput> SpooledInput::open(const std::string& name) {
   SpooledInput input(name);
   if (can_be_read_twice(name)) return input;
-  const SpooledFile from(name == kStandardStream ? ::fdopen(::dup(STDIN_FILENO), "rb")
-                                                 : std::fopen(name.c_str(), "rb"));
-  if (!from) {
+  const int from = name == kStandardStream ? os::standard_input() : os::open_to_read(name);
+  if (from < 0) {
     return Error{ErrorCode::unreadable, fmt::format("{}: expected to read it, but: {}", input.name_,
                                                     std::strerror(errno))};
   }
   std::error_code ignored;
-  input.path_ = (std::filesystem::temp_directory_path(ignored) / "nade-XXXXXX").string();
-  const auto unwritable = [&input] {
-    return Error{ErrorCode::unwritable,
-                 fmt::format("{}: expected to keep {} there, but: {}", input.path_, input.name_,
-                             std::strerror(errno))};
-  };
-  const int descriptor = ::mkstemp(input.path_.data());
-  if (descriptor < 0) return unwritable();
-  std::FILE* const file = ::fdopen(descriptor, "wb");
-  input.ours_.reset(file);
-  // It goes with the program, however that ends.
-  ::unlink(input.path_.c_str());
-  if (file == nullptr) {
-    ::close(descriptor);
-    return unwritable();
-  }
-  std::vector<char> block(1U << 16U);
-  bool written = true;
-  while (written) {
-    const std::size_t size = std::fread(block.data(), 1, block.size(), from.get());
-    if (size == 0) break;
-    written = std::fwrite(block.data(), 1, size, file) == size;
-  }
-  if (std::fflush(file) != 0 || !written) return unwritable();
-  input.path_ = fmt::format("/proc/self/fd/{}", descriptor);
-  return input;
+  os::PassingFile kept = os::make_passing_file(
+      (std::filesystem::temp_directory_path(ignored) / "nade-XXXXXX").string());
+  input.ours_.reset(kept.stream);
+  input.path_ = std::move(kept.path);
+  const bool copied = kept.stream != nullptr && copy(from, kept.stream);
+  const int why = errno;
+  os::close(from);
+  if (copied) return input;
+  return Error{ErrorCode::unwritable, fmt::format("{}: expected to keep {} there, but: {}",
+                                                  input.path_, input.name_, std::strerror(why))};
 }
 
 SpooledInput SpooledInput::unspooled(const std::string& name) { return SpooledInput(name); }

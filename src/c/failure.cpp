@@ -11,7 +11,7 @@
 namespace nade::c_abi {
 namespace {
 
-thread_local std::array<char, 256> t_sentence{};
+thread_local std::array<char, NADE_C_SENTENCE_BYTES> t_sentence{};
 thread_local const char* t_function = "";
 
 nade_message_callback g_callback = nullptr;

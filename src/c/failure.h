@@ -5,6 +5,11 @@
 
 #include "nade.h"
 
+/// What the sentence of a call has room for, its end included.
+#ifndef NADE_C_SENTENCE_BYTES
+#define NADE_C_SENTENCE_BYTES 256
+#endif
+
 namespace nade::c_abi {
 
 /// Writes the sentence of a call that fails, gives it to the program's callback, and returns

@@ -1,3 +1,5 @@
+#include <assimp/DefaultIOSystem.h>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/material.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
@@ -19,6 +21,25 @@ namespace nade::draw {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Has one file's content in memory, and opens only what lies below its folder.
+class OneInMemory : public Assimp::DefaultIOSystem {
+ public:
+  OneInMemory(std::string path, std::string content)
+      : path_(std::move(path)), content_(std::move(content)) {}
+
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    if (file != path_) {
+      return io::is_below_folder_of(path_, file) ? DefaultIOSystem::Open(file, mode) : nullptr;
+    }
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(content_.data());
+    return new Assimp::MemoryIOStream(bytes, content_.size());
+  }
+
+ private:
+  std::string path_;
+  std::string content_;
+};
 
 /// A file while it is taken over.
 struct Source {
@@ -127,8 +148,9 @@ Result<DressedObject> load_plain_meshes(const std::string& path) {
   try {
     Assimp::Importer importer;
     if (ending_of(path) == ".obj") {
-      const Status status = io::read_as_plain_obj(importer, path);
-      if (!status) return status.error();
+      Result<std::string> plain = io::plain_obj(path);
+      if (!plain) return plain.error();
+      importer.SetIOHandler(new OneInMemory(path, std::move(*plain)));  // which it deletes
     }
     const aiScene* const scene = importer.ReadFile(path, 0);
     if (scene == nullptr || scene->mRootNode == nullptr) {

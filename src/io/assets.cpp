@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include "operating_system.h"
+
 namespace nade {
 
 Result<std::string> find_asset(std::string_view relative) {
@@ -16,8 +18,7 @@ Result<std::string> find_asset(std::string_view relative) {
   if (chosen != nullptr && *chosen != '\0') {
     folder = chosen;
   } else {
-    const fs::path program = fs::read_symlink("/proc/self/exe", error);
-    folder = program.parent_path().parent_path() / "share" / "nade";
+    folder = os::program_file().parent_path().parent_path() / "share" / "nade";
   }
   const fs::path file = folder / relative;
   if (fs::exists(file, error)) return file.string();

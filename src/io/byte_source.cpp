@@ -1,9 +1,6 @@
 #include "byte_source.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -12,6 +9,7 @@
 #include <cstring>
 
 #include "lz_text.h"
+#include "operating_system.h"
 
 namespace nade::io {
 namespace {
@@ -50,7 +48,7 @@ class ByteSource::Unpacker {
   Unpacker& operator=(const Unpacker&) = delete;
   ~Unpacker() {
     ::inflateEnd(&stream_);
-    ::close(descriptor_);
+    os::close(descriptor_);
   }
 
   /// Moves up to `room` bytes to `to`, at least one where there are `more`; `count` is how many.
@@ -100,11 +98,8 @@ class ByteSource::Unpacker {
   [[nodiscard]] bool read_on() {
     if (stream_.avail_in == 0) stream_.next_in = input_.data();
     Bytef* const end = stream_.next_in + stream_.avail_in;
-    ssize_t count = -1;
-    do {
-      count =
-          ::read(descriptor_, end, static_cast<std::size_t>(input_.data() + input_.size() - end));
-    } while (count < 0 && errno == EINTR);
+    const std::ptrdiff_t count =
+        os::read(descriptor_, end, static_cast<std::size_t>(input_.data() + input_.size() - end));
     if (count > 0) stream_.avail_in += static_cast<uInt>(count);
     if (count > 0) packed_ += static_cast<std::size_t>(count);
     return count >= 0;
@@ -157,14 +152,8 @@ ByteSource::~ByteSource() = default;
 Result<ByteSource> ByteSource::open(const std::string& path) {
   const bool standard_input = path == "-";
   std::string name = standard_input ? "standard input" : path;
-  const int descriptor =
-      standard_input ? ::dup(STDIN_FILENO) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int descriptor = standard_input ? os::standard_input() : os::open_to_read(path);
   if (descriptor < 0) return cannot_open(name, errno);
-  struct stat info {};
-  if (::fstat(descriptor, &info) == 0 && S_ISDIR(info.st_mode)) {
-    ::close(descriptor);
-    return cannot_open(name, EISDIR);
-  }
   ByteSource source(std::move(name), descriptor);
   if (source.peek(kByteOrderMark.size()) == kByteOrderMark) source.begin_ += kByteOrderMark.size();
   if (source.failure_) return *source.failure_;

@@ -1,8 +1,5 @@
 #include "obj_text.h"
 
-#include <assimp/DefaultIOSystem.h>
-#include <assimp/MemoryIOWrapper.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
@@ -70,8 +67,7 @@ class Statements {
 };
 
 /// An .obj file's vertices, faces, groups and materials, a statement a line, in the few spellings
-/// that Assimp knows: it leaves out a vertex that it does not understand, without a word, and
-/// then counts all further ones wrongly. The error names the line.
+/// that Assimp knows. The error names the line.
 class PlainObj {
  public:
   explicit PlainObj(const MeshText& file)
@@ -236,25 +232,6 @@ class PlainObj {
   std::size_t greatest_line_ = 0;
 };
 
-/// Has one file's content in memory, and opens only what lies below its folder.
-class OneInMemory : public Assimp::DefaultIOSystem {
- public:
-  OneInMemory(std::string path, std::string content)
-      : path_(std::move(path)), content_(std::move(content)) {}
-
-  Assimp::IOStream* Open(const char* file, const char* mode) override {
-    if (file != path_) {
-      return is_below_folder_of(path_, file) ? DefaultIOSystem::Open(file, mode) : nullptr;
-    }
-    const auto* bytes = reinterpret_cast<const std::uint8_t*>(content_.data());
-    return new Assimp::MemoryIOStream(bytes, content_.size());
-  }
-
- private:
-  std::string path_;
-  std::string content_;
-};
-
 }  // namespace
 
 Result<TriangleSoup> read_obj(const MeshText& file) {
@@ -263,13 +240,12 @@ Result<TriangleSoup> read_obj(const MeshText& file) {
   return std::move(read->soup);
 }
 
-Status read_as_plain_obj(Assimp::Importer& importer, const std::string& path) {
+Result<std::string> plain_obj(const std::string& path) {
   const Result<std::string> content = read_whole(path);
   if (!content) return content.error();
   Result<PlainObj::Read> read = PlainObj({path, *content}).run();
   if (!read) return read.error();
-  importer.SetIOHandler(new OneInMemory(path, std::move(read->plain)));  // which it deletes
-  return ok_status();
+  return std::move(read->plain);
 }
 
 }  // namespace nade::io

@@ -1,14 +1,14 @@
 #pragma once
 
-#include <assimp/Importer.hpp>
 #include <string>
 
 #include "nade/status.h"
 
 namespace nade::io {
 
-/// Lets `importer` find the file at `path` in the few spellings of .obj that it knows. The error
-/// names the line. Whoever reads the file so counts the same vertices.
-[[nodiscard]] Status read_as_plain_obj(Assimp::Importer& importer, const std::string& path);
+/// The .obj file at `path` in the few spellings that Assimp knows: it leaves out a vertex that it
+/// does not understand, without a word, and then counts all further ones wrongly. The error names
+/// the line.
+[[nodiscard]] Result<std::string> plain_obj(const std::string& path);
 
 }  // namespace nade::io

@@ -1,14 +1,9 @@
 #include "nade/io/output_file.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 #include <zlib.h>
 
 #include <cerrno>
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <optional>
@@ -16,34 +11,37 @@
 #include <utility>
 
 #include "nade/io/mesh_file.h"
+#include "operating_system.h"
 
 namespace nade {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr unsigned kBufferBytes = 1U << 17;
 constexpr int kNameTries = 100;
 constexpr int kLinkTries = 40;
-constexpr mode_t kNewFileMode = 0666;  // less what the umask takes away
-constexpr mode_t kPermissions = 0777;
+/// Of a new file, less what the umask takes away.
+constexpr fs::perms kReadAndWrite = static_cast<fs::perms>(0666);
 
 std::string shown(const std::string& path) { return path == "-" ? "standard output" : path; }
 
+Error unwritable(const std::string& path, std::string_view why) {
+  return {ErrorCode::unwritable,
+          fmt::format("{}: expected to write the output, but: {}", shown(path), why)};
+}
 Error unwritable(const std::string& path, int error_number) {
-  return {ErrorCode::unwritable, fmt::format("{}: expected to write the output, but: {}",
-                                             shown(path), std::strerror(error_number))};
+  return unwritable(path, std::strerror(error_number));
 }
 
 /// Where the file really lies, or will, so that a link is written through and not replaced.
 std::string resolved(const std::string& path) {
-  if (char* real = ::realpath(path.c_str(), nullptr); real != nullptr) {
-    std::string result = real;
-    std::free(real);
-    return result;
-  }
-  std::filesystem::path target = path;
   std::error_code none;
-  for (int i = 0; i < kLinkTries && !std::filesystem::exists(target, none); ++i) {
-    const std::filesystem::path next = std::filesystem::read_symlink(target, none);
+  fs::path target = fs::canonical(path, none);
+  if (!none) return target.string();
+  target = path;
+  for (int i = 0; i < kLinkTries && !fs::exists(target, none); ++i) {
+    const fs::path next = fs::read_symlink(target, none);
     if (next.empty()) break;
     target = target.parent_path() / next;
   }
@@ -58,17 +56,9 @@ struct OpenedFile {
   int nameless = -1;        ///< a second descriptor, by which a file without a name gets one
 };
 
-std::filesystem::path folder_of(const std::string& target) {
-  const std::filesystem::path folder = std::filesystem::path(target).parent_path();
+fs::path folder_of(const std::string& target) {
+  const fs::path folder = fs::path(target).parent_path();
   return folder.empty() ? "." : folder;
-}
-
-/// So that a new name outlives the machine's stopping. Not every file system can do it.
-void sync_folder(const std::filesystem::path& folder) {
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  static_cast<void>(::fsync(descriptor));
-  ::close(descriptor);
 }
 
 /// Calls `make` with names beside `target` until it has made something under one of them; that
@@ -77,37 +67,31 @@ void sync_folder(const std::filesystem::path& folder) {
 template <class Make>
 std::string make_beside(const std::string& target, Make&& make) {
   for (int attempt = 0; attempt < kNameTries; ++attempt) {
-    std::string name = folder_of(target) / fmt::format("nade-{}-{}.part", ::getpid(), attempt);
-    if (make(name.c_str())) return name;
+    const fs::path name =
+        folder_of(target) / fmt::format("nade-{}-{}.part", os::process_number(), attempt);
+    if (make(name.string())) return name.string();
     if (errno != EEXIST) break;
   }
   return {};
 }
 
-std::string by_descriptor(int descriptor) { return fmt::format("/proc/self/fd/{}", descriptor); }
-
 /// A file without a name, which goes with the program however that ends; no value where the
 /// system has no such thing.
-std::optional<OpenedFile> open_nameless([[maybe_unused]] const std::string& target,
-                                        [[maybe_unused]] mode_t mode) {
-#if defined(O_TMPFILE)
-  const int descriptor = ::open(folder_of(target).c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, mode);
+std::optional<OpenedFile> open_nameless(const std::string& target, fs::perms permissions) {
+  const int descriptor = os::create_nameless(folder_of(target), permissions);
   if (descriptor < 0) return std::nullopt;
-  const int second = ::fcntl(descriptor, F_DUPFD_CLOEXEC, 0);
-  if (second >= 0 && ::access(by_descriptor(second).c_str(), F_OK) == 0) {
-    return OpenedFile{descriptor, target, {}, second};
-  }
-  if (second >= 0) ::close(second);
-  ::close(descriptor);
-#endif
+  const int second = os::duplicate(descriptor);
+  if (second >= 0) return OpenedFile{descriptor, target, {}, second};
+  os::close(descriptor);
   return std::nullopt;
 }
 
-Result<OpenedFile> open_beside(const std::string& path, const std::string& target, mode_t mode) {
-  if (auto nameless = open_nameless(target, mode)) return *std::move(nameless);
+Result<OpenedFile> open_beside(const std::string& path, const std::string& target,
+                               fs::perms permissions) {
+  if (auto nameless = open_nameless(target, permissions)) return *std::move(nameless);
   int descriptor = -1;
-  std::string temporary = make_beside(target, [&](const char* name) {
-    descriptor = ::open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+  std::string temporary = make_beside(target, [&](const std::string& name) {
+    descriptor = os::create(name, permissions);
     return descriptor >= 0;
   });
   if (descriptor < 0) return unwritable(path, errno);
@@ -115,36 +99,34 @@ Result<OpenedFile> open_beside(const std::string& path, const std::string& targe
 }
 
 Result<OpenedFile> open_at_once(const std::string& path) {
-  const int descriptor =
-      ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kNewFileMode);
+  const int descriptor = os::create(path, kReadAndWrite);
   if (descriptor < 0) return unwritable(path, errno);
   return OpenedFile{descriptor, path};
 }
 
 Result<OpenedFile> open_for_writing(const std::string& path) {
   if (path == "-") {
-    const int descriptor = ::dup(STDOUT_FILENO);
+    const int descriptor = os::standard_output();
     if (descriptor < 0) return unwritable(path, errno);
     return OpenedFile{descriptor, path};
   }
-  struct stat info {};
   const std::string target = resolved(path);
-  if (::stat(target.c_str(), &info) != 0) {
-    if (errno != ENOENT) return unwritable(path, errno);
-    return open_beside(path, target, kNewFileMode);
-  }
-  if (S_ISDIR(info.st_mode)) return unwritable(path, EISDIR);
-  if (!S_ISREG(info.st_mode)) {
-    const int descriptor = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
+  std::error_code failure;
+  const fs::file_status there = fs::status(target, failure);
+  if (there.type() == fs::file_type::not_found) return open_beside(path, target, kReadAndWrite);
+  if (failure) return unwritable(path, failure.message());
+  if (fs::is_directory(there)) return unwritable(path, EISDIR);
+  if (!fs::is_regular_file(there)) {
+    const int descriptor = os::open_to_write(target);
     if (descriptor < 0) return unwritable(path, errno);
     return OpenedFile{descriptor, target};
   }
   // A rename would replace a file that its owner made read-only.
-  if (::access(target.c_str(), W_OK) != 0) return unwritable(path, errno);
+  if (!os::may_write(target)) return unwritable(path, errno);
   // Nobody may read it who may not read what it replaces.
-  const mode_t mode = info.st_mode & kPermissions;
-  Result<OpenedFile> file = open_beside(path, target, mode);
-  if (file) static_cast<void>(::fchmod(file->descriptor, mode));  // what the umask took away
+  const fs::perms permissions = there.permissions() & fs::perms::all;
+  Result<OpenedFile> file = open_beside(path, target, permissions);
+  if (file) os::set_permissions(file->descriptor, permissions);  // what the umask took away
   return file;
 }
 
@@ -162,19 +144,18 @@ struct OutputFile::Impl {
   ~Impl() { abandon(); }
 
   void remove_temporary() {
-    if (file.nameless >= 0) ::close(file.nameless);
+    if (file.nameless >= 0) os::close(file.nameless);
     file.nameless = -1;
     if (file.temporary.empty()) return;
-    ::unlink(file.temporary.c_str());
+    std::error_code gone_already;
+    fs::remove(file.temporary, gone_already);
     file.temporary.clear();
   }
   /// Gives a file without a name one beside its place, since only a name can replace another.
   [[nodiscard]] bool name_temporary() {
     if (file.nameless < 0) return true;
-    const std::string nameless = by_descriptor(file.nameless);
-    file.temporary = make_beside(file.target, [&](const char* name) {
-      return ::linkat(AT_FDCWD, nameless.c_str(), AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0;
-    });
+    file.temporary = make_beside(
+        file.target, [&](const std::string& name) { return os::give_name(file.nameless, name); });
     return !file.temporary.empty();
   }
   void abandon() {
@@ -198,7 +179,7 @@ Result<OutputFile> OutputFile::create(const std::string& path, Encoding encoding
   // recordings 3 % larger.
   impl->stream = ::gzdopen(impl->file.descriptor, encoding == Encoding::gzip ? "wb4" : "wbT");
   if (impl->stream == nullptr) {
-    ::close(impl->file.descriptor);
+    os::close(impl->file.descriptor);
     return unwritable(path, ENOMEM);
   }
   ::gzbuffer(impl->stream, kBufferBytes);
@@ -229,33 +210,38 @@ Status OutputFile::finish() {
   NADE_ASSERT(impl_ != nullptr && impl_->stream != nullptr);
   OpenedFile& file = impl_->file;
   const bool to_be_renamed = !file.temporary.empty() || file.nameless >= 0;
-  const int kept = to_be_renamed ? ::fcntl(file.descriptor, F_DUPFD_CLOEXEC, 0) : -1;
+  const int kept = to_be_renamed ? os::duplicate(file.descriptor) : -1;
   errno = 0;
   bool written = ::gzclose_w(impl_->stream) == Z_OK;
   impl_->stream = nullptr;
   // What has its name has its content too, even where the machine stops.
-  if (to_be_renamed) written = written && ::fsync(kept) == 0;
+  if (to_be_renamed) written = written && os::sync(kept);
   const int error_number = errno != 0 ? errno : EIO;
-  if (kept >= 0) ::close(kept);
+  if (kept >= 0) os::close(kept);
   if (!written) {
     impl_->remove_temporary();
     return unwritable(impl_->path, error_number);
   }
   if (!to_be_renamed) return ok_status();
-  if (!impl_->name_temporary() || std::rename(file.temporary.c_str(), file.target.c_str()) != 0) {
-    const int rename_error = errno;
+  std::error_code failure;
+  if (!impl_->name_temporary()) {
+    failure.assign(errno, std::generic_category());
+  } else {
+    fs::rename(file.temporary, file.target, failure);
+  }
+  if (failure) {
     impl_->remove_temporary();
-    return unwritable(impl_->path, rename_error);
+    return unwritable(impl_->path, failure.message());
   }
   file.temporary.clear();
   impl_->remove_temporary();
-  sync_folder(folder_of(file.target));
+  os::sync_folder(folder_of(file.target));
   return ok_status();
 }
 
 std::string content_ending_of(const std::string& path) {
   const std::string ending = ending_of(path);
-  return ending == ".gz" ? ending_of(std::filesystem::path(path).stem().string()) : ending;
+  return ending == ".gz" ? ending_of(fs::path(path).stem().string()) : ending;
 }
 
 Status write_whole(const std::string& path, std::string_view text) {

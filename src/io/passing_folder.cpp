@@ -1,15 +1,15 @@
 #include "nade/io/passing_folder.h"
 
-#include <stdlib.h>
-
 #include <filesystem>
 #include <system_error>
 #include <utility>
 
+#include "operating_system.h"
+
 namespace nade {
 
 PassingFolder::PassingFolder(std::string pattern) : path_(std::move(pattern)) {
-  there_ = ::mkdtemp(path_.data()) != nullptr;
+  there_ = os::make_own_folder(path_);
 }
 
 PassingFolder::~PassingFolder() {
