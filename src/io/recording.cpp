@@ -10,6 +10,7 @@
 #include "byte_source.h"
 #include "csv_import.h"
 #include "csv_write.h"
+#include "damage.h"
 #include "frame_sketch.h"
 #include "hot3d_import.h"
 #include "json_text.h"
@@ -98,6 +99,7 @@ Result<AnySource> recognised(ByteSource source) {
 }  // namespace
 
 struct RecordingReader::Impl {
+  std::string path;
   AnySource source;
 };
 
@@ -110,8 +112,8 @@ Result<RecordingReader> RecordingReader::open(const std::string& path) {
   Result<ByteSource> bytes = ByteSource::open(path);
   if (!bytes) return bytes.error();
   Result<AnySource> source = recognised(std::move(bytes).value());
-  if (!source) return source.error();
-  return RecordingReader(std::make_unique<Impl>(Impl{std::move(source).value()}));
+  if (!source) return io::damage_or(path, source.error());
+  return RecordingReader(std::make_unique<Impl>(Impl{path, std::move(source).value()}));
 }
 
 RecordingFormat RecordingReader::format() const {
@@ -124,13 +126,15 @@ const RecordingHeader& RecordingReader::header() const {
 }
 
 Result<std::optional<RecordedFrame>> RecordingReader::next() {
-  return std::visit(
+  Result<std::optional<RecordedFrame>> next = std::visit(
       [](auto& source) {
         Result<std::optional<RecordedFrame>> frame = source.next();
         if (frame && *frame) source.intake().add_time((*frame)->time_ns);
         return frame;
       },
       impl_->source);
+  if (!next) return io::damage_or(impl_->path, next.error());
+  return next;
 }
 
 std::vector<std::string> RecordingReader::warnings() const {
