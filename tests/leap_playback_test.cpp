@@ -143,11 +143,5 @@ TEST_F(LeapPlayback, ARowThatIsNoneIsAnErrorThatNamesIt) {
   EXPECT_TRUE(contains(read(recording.dump()).error, "frames[2]: expected the \"hands\""));
 }
 
-TEST_F(LeapPlayback, PosesOfAHandModelAreRefusedWithAReason) {
-  const WholeRecording whole = read(
-      R"({"timestamp_ns":1,"hand_poses":{"0":{"wrist_xform":[1,0,0,0,0,0,0],"joint_angles":[0]}}})");
-  EXPECT_TRUE(contains(whole.error, "found poses of a hand model (HOT3D)")) << whole.error;
-}
-
 }  // namespace
 }  // namespace nade

@@ -199,6 +199,25 @@ TEST_F(Recording, DamagedGzipIsAnError) {
   EXPECT_TRUE(contains(whole.error, "bad.jsonl.gz: expected whole gzip data")) << whole.error;
 }
 
+TEST_F(Recording, DamagedGzipIsSaidToBeDamagedWhateverComesOutOfIt) {
+  for (const std::string name : {"recording_v1.jsonl", "leap_v2.json", "mediapipe_results.json",
+                                 "webxr_actions.json", "webxr_joints.json", "hands.bvh"}) {
+    SCOPED_TRACE(name);
+    ASSERT_TRUE(write_whole(path("in.gz"), test::read_file(NADE_TEST_DATA_DIR "/" + name)).ok());
+    const std::string bytes = test::read_file(path("in.gz"));
+    for (std::size_t at = 20; at < bytes.size(); at += bytes.size() / 40 + 1) {
+      std::string damaged = bytes;
+      damaged[at] = static_cast<char>(damaged[at] ^ 0x24);
+      const WholeRecording whole = read_whole(given("bad.gz", damaged));
+      // Some damage looks like an end that came too early.
+      const bool cut_off = whole.error.empty() && !whole.warnings.empty() &&
+                           contains(whole.warnings.back(), "cut off");
+      EXPECT_TRUE(cut_off || contains(whole.error, "bad.gz: expected whole gzip data"))
+          << "byte " << at << ": " << whole.error;
+    }
+  }
+}
+
 TEST_F(Recording, GzipOfSeveralMembersIsWholeOrAnError) {
   write_random("in.jsonl", 200);
   write_random("in.jsonl.gz", 200);

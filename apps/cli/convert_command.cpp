@@ -1,8 +1,6 @@
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <cstdint>
-#include <ctime>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -25,19 +23,6 @@ struct ConvertArguments {
   ModelChoice model;
   std::string recipe;
 };
-
-std::string now_utc() {
-  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
-}
-
-/// Ours keeps the time it was made; another format gets that of its conversion.
-RecordingHeader converted_header(const RecordingReader& reader) {
-  RecordingHeader header = reader.header();
-  if (header.created.empty() && reader.format() != RecordingFormat::nade) {
-    header.created = now_utc();
-  }
-  return header;
-}
 
 /// The object that the recording's header names is the one to be shown.
 Result<ModelOptions> model_of(const ModelChoice& choice, const RecordingReader& reader,
@@ -65,7 +50,7 @@ Result<nlohmann::ordered_json> convert(const BatchItem& item, const ModelChoice&
   const Result<ModelOptions> model = model_of(choice, *reader, item.input);
   if (!model) return model.error();
   Result<RecordingWriter> writer =
-      RecordingWriter::create(item.output, converted_header(*reader), {}, *model);
+      RecordingWriter::create(item.output, reader->header(), {}, *model);
   if (!writer) return writer.error();
   std::optional<std::int64_t> first_ns;
   double seconds = 0.0;

@@ -16,9 +16,10 @@ constexpr double kSecondsPerNanosecond = 1e-9;
 constexpr double kMillimetresPerMetre = 1e3;
 constexpr double kRadiiAlike_m = 1e-5;
 constexpr std::array<const char*, 4> kStatusNames{"free", "corrected", "released", "untracked"};
-constexpr std::array<const char*, 6> kFormatNames{"nade-recording",         "Leap Motion v2 frames",
-                                                  "WebXR action recording", "table of joints",
-                                                  "results of MediaPipe",   "WebXR joints"};
+constexpr std::array<const char*, 9> kFormatNames{
+    "nade-recording",       "Leap Motion v2 frames", "WebXR action recording",
+    "table of joints",      "results of MediaPipe",  "WebXR joints",
+    "motion capture (BVH)", "hands of HOT3D",        "Unity hand recording"};
 
 double seconds(std::int64_t from_ns, std::int64_t to_ns) {
   return kSecondsPerNanosecond * static_cast<double>(to_ns - from_ns);

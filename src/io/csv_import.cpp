@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <utility>
 
 #include "csv_columns.h"
+#include "file_side.h"
 #include "mesh_words.h"
 #include "nade/io/plain_text.h"
 #include "recording_limits.h"
@@ -64,15 +64,6 @@ std::optional<Handedness> side_from(std::string_view text) {
 
 bool says_no(std::string_view text) {
   return text == "0" || text == "false" || text == "False" || text == "FALSE" || text == "no";
-}
-
-/// As the name of a file of one hand says.
-std::optional<Handedness> side_of_file(const std::string& path) {
-  const std::string name = lower(std::filesystem::path(path).filename().string());
-  const bool left = name.find("left") != std::string::npos;
-  const bool right = name.find("right") != std::string::npos;
-  if (left == right) return std::nullopt;
-  return left ? Handedness::left : Handedness::right;
 }
 
 }  // namespace

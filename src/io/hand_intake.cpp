@@ -19,7 +19,8 @@ struct Unit {
 };
 constexpr std::array<Unit, 4> kTimes{
     {{1e-9, "nanoseconds"}, {1e-6, "microseconds"}, {1e-3, "milliseconds"}, {1.0, "seconds"}}};
-constexpr std::array<Unit, 5> kLengths{{{1e-3, "millimetres"},
+constexpr std::array<Unit, 6> kLengths{{{1.0, "metres"},
+                                        {1e-3, "millimetres"},
                                         {1e-2, "centimetres"},
                                         {0.0254, "inches"},
                                         {0.3048, "feet"},
@@ -70,6 +71,8 @@ std::string doubt_of_turns(HandCause cause, const HandCheck& first, double bone_
 }
 
 }  // namespace
+
+std::string_view name_of_length_unit(double unit_m) { return name_of_unit(kLengths, unit_m); }
 
 void ThinnedValues::add(double value) {
   if (seen_++ % stride_ != 0) return;

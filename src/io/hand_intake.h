@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "nade/hand_check.h"
@@ -24,6 +25,9 @@ class ThinnedValues {
   std::size_t seen_ = 0;
 };
 
+/// "centimetres", … by a unit's size.
+[[nodiscard]] std::string_view name_of_length_unit(double unit_m);
+
 /// Takes in the hands and times of a recording, and says at its end whether they are of another
 /// convention than ours.
 class HandIntake {
@@ -31,7 +35,7 @@ class HandIntake {
   /// Where the rotations come from: those inferred from the points follow the hand's side.
   enum class Rotations { read, inferred };
 
-  /// `tick_s`: the unit that the file's times are expected in, 1e-3, 1e-6 or 1e-9.
+  /// `tick_s`: the unit that the file's times are expected in, 1, 1e-3, 1e-6 or 1e-9.
   explicit HandIntake(double tick_s, Rotations rotations = Rotations::read)
       : tick_s_(tick_s), rotations_(rotations) {}
 

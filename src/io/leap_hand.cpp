@@ -118,8 +118,8 @@ void place_finger(const PalmFrame& palm, const LeapFinger& leap, std::size_t fin
                   HandPose& hand) {
   const std::size_t first = index_of(joints_of(digit_at(finger + 1)).metacarpal);
   const RestFinger& rest = kRest[finger];
-  const std::array<Vec3, 5> points{metacarpal_base(palm, rest, leap.mcp), leap.mcp, leap.pip,
-                                   leap.dip, leap.tip};
+  const Vec3 base = leap.metacarpal.value_or(metacarpal_base(palm, rest, leap.mcp));
+  const std::array<Vec3, 5> points{base, leap.mcp, leap.pip, leap.dip, leap.tip};
   const Vec3 ahead = palm.turned(-Vec3::UnitZ());
   const Vec3 right = palm.turned(Vec3::UnitX());
   std::array<Vec3, 4> bones;
@@ -163,8 +163,10 @@ LeapHand mirrored(const LeapHand& leap) {
   result.palm_normal = mirrored(leap.palm_normal);
   result.direction = mirrored(leap.direction);
   for (LeapFinger& finger : result.fingers) {
-    finger = {mirrored(finger.mcp), mirrored(finger.pip), mirrored(finger.dip),
-              mirrored(finger.tip)};
+    for (Vec3* const point : {&finger.mcp, &finger.pip, &finger.dip, &finger.tip}) {
+      *point = mirrored(*point);
+    }
+    if (finger.metacarpal) finger.metacarpal = mirrored(*finger.metacarpal);
   }
   return result;
 }

@@ -12,7 +12,8 @@ struct LeapFinger {
   Vec3 mcp = Vec3::Zero();  ///< the knuckle; of the thumb the base of its metacarpal
   Vec3 pip = Vec3::Zero();
   Vec3 dip = Vec3::Zero();
-  Vec3 tip = Vec3::Zero();  ///< the end of the last bone, inside the flesh
+  Vec3 tip = Vec3::Zero();           ///< the end of the last bone, inside the flesh
+  std::optional<Vec3> metacarpal{};  ///< base of a finger's, where a device reports it
 };
 
 /// One hand as a Leap Motion v2 reports it: no wrist, no metacarpals. Metres, world frame. Other

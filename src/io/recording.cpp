@@ -6,41 +6,49 @@
 #include <variant>
 
 #include "animated_hands.h"
+#include "bvh_import.h"
 #include "byte_source.h"
 #include "csv_import.h"
 #include "csv_write.h"
+#include "damage.h"
 #include "frame_sketch.h"
+#include "hot3d_import.h"
 #include "json_text.h"
 #include "leap_import.h"
 #include "mcap_write.h"
 #include "mediapipe_import.h"
 #include "nade/io/output_file.h"
 #include "recording_lines.h"
+#include "unity_import.h"
 #include "webxr_dump_import.h"
 #include "webxr_import.h"
 
 namespace nade {
 namespace {
 
+using io::BvhImport;
 using io::ByteSource;
 using io::CsvImport;
 using io::FrameSketch;
+using io::Hot3dImport;
 using io::LeapImport;
 using io::MediapipeImport;
 using io::RecordingLines;
 using io::Sketch;
+using io::UnityImport;
 using io::WebxrDumpImport;
 using io::WebxrImport;
 
 // As RecordingFormat.
 using AnySource = std::variant<RecordingLines, LeapImport, WebxrImport, CsvImport, MediapipeImport,
-                               WebxrDumpImport>;
+                               WebxrDumpImport, BvhImport, Hot3dImport, UnityImport>;
 
 /// Enough to see what a file is.
 constexpr std::size_t kLookAhead = std::size_t{1} << 16;
 constexpr std::string_view kKnownForms =
     "a nade recording, raw Leap Motion v2 frames (LeapJS JSON), a WebXR action recording, WebXR "
-    "joints (JSON), results of MediaPipe (JSON) or a table of joints (CSV)";
+    "joints (JSON), results of MediaPipe (JSON), hands of HOT3D (JSON), a table of joints (CSV), a "
+    "motion capture file (BVH) or a Unity hand recording";
 
 template <class Source>
 Result<AnySource> opened(ByteSource source) {
@@ -57,11 +65,14 @@ Error unknown_form(const std::string& name, const std::string& found) {
 Result<AnySource> recognised(ByteSource source) {
   const std::string_view beginning = source.peek(kLookAhead);
   if (source.failure()) return *source.failure();
+  if (io::looks_like_unity_hands(beginning)) return opened<UnityImport>(std::move(source));
+  if (io::looks_like_bvh(beginning)) return opened<BvhImport>(std::move(source));
   if (io::looks_like_joint_table(beginning)) return opened<CsvImport>(std::move(source));
   const Sketch sketch = io::sketch_of(beginning);
   if (sketch.begins.empty()) return unknown_form(source.name(), "nothing");
   if (sketch.find("format") != nullptr) return opened<RecordingLines>(std::move(source));
   if (sketch.find("schema") != nullptr) return opened<WebxrImport>(std::move(source));
+  if (sketch.find("hand_poses") != nullptr) return opened<Hot3dImport>(std::move(source));
   const FrameSketch frame = io::frame_sketch_of(beginning);
   if (frame.has_landmarks()) return opened<MediapipeImport>(std::move(source));
   if (frame.has_webxr_joints()) return opened<WebxrDumpImport>(std::move(source));
@@ -80,12 +91,6 @@ Result<AnySource> recognised(ByteSource source) {
   }
   // The packed form of LeapJS Playback.
   if (frames_begin.starts_with("[[")) return opened<LeapImport>(std::move(source));
-  if (sketch.find("hand_poses") != nullptr) {
-    return Error{ErrorCode::bad_format,
-                 fmt::format("{}: expected places of joints, found poses of a hand model (HOT3D), "
-                             "whose joints only that model gives",
-                             source.name())};
-  }
   if (sketch.members.empty()) return unknown_form(source.name(), "none of them");
   return unknown_form(source.name(),
                       fmt::format("an object that begins with \"{}\"", sketch.members[0].key));
@@ -94,6 +99,7 @@ Result<AnySource> recognised(ByteSource source) {
 }  // namespace
 
 struct RecordingReader::Impl {
+  std::string path;
   AnySource source;
 };
 
@@ -106,8 +112,8 @@ Result<RecordingReader> RecordingReader::open(const std::string& path) {
   Result<ByteSource> bytes = ByteSource::open(path);
   if (!bytes) return bytes.error();
   Result<AnySource> source = recognised(std::move(bytes).value());
-  if (!source) return source.error();
-  return RecordingReader(std::make_unique<Impl>(Impl{std::move(source).value()}));
+  if (!source) return io::damage_or(path, source.error());
+  return RecordingReader(std::make_unique<Impl>(Impl{path, std::move(source).value()}));
 }
 
 RecordingFormat RecordingReader::format() const {
@@ -120,13 +126,15 @@ const RecordingHeader& RecordingReader::header() const {
 }
 
 Result<std::optional<RecordedFrame>> RecordingReader::next() {
-  return std::visit(
+  Result<std::optional<RecordedFrame>> next = std::visit(
       [](auto& source) {
         Result<std::optional<RecordedFrame>> frame = source.next();
         if (frame && *frame) source.intake().add_time((*frame)->time_ns);
         return frame;
       },
       impl_->source);
+  if (!next) return io::damage_or(impl_->path, next.error());
+  return next;
 }
 
 std::vector<std::string> RecordingReader::warnings() const {

@@ -20,6 +20,10 @@ enum class Oddity {
   picture_missing,
   depth_missing,
   shape_missing,
+  unit_guessed,
+  metacarpal_missing,
+  joint_missing,
+  up_guessed,
 };
 
 /// Counts oddities and keeps the first of each kind.

@@ -1,13 +1,42 @@
 // A recording in any of the formats, plain or gzip: told from its bytes.
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
 
 #include "input_file.h"
 #include "nade/io/object_file.h"
 #include "nade/io/recording.h"
 
+namespace {
+
+/// Puts a hand beside the inputs, which angles of HOT3D bend: each digit along +X.
+bool write_hot3d_hand() {
+  std::string hinges;
+  std::string axes;
+  std::string tips;
+  for (int digit = 0; digit < 5; ++digit) {
+    const std::string behind = ",0," + std::to_string(30 - 20 * digit) + "],";
+    for (const int along : {90, 90, 130, 155}) {
+      hinges += "[" + std::to_string(digit == 0 ? along / 2 : along) + behind;
+      axes += "[0,0,-1],";
+    }
+    tips += "[" + std::to_string(digit == 0 ? 90 : 180) + behind;
+  }
+  for (std::string* const list : {&hinges, &axes, &tips}) list->pop_back();
+  std::ofstream(std::filesystem::temp_directory_path() / "umetrack_hand_user_profile.json")
+      << R"({"hand_model":{"joint_rest_positions":[)" << hinges << R"(],"joint_rotation_axes":[)"
+      << axes << R"(],"landmark_rest_positions":[)" << tips << "]}}";
+  return true;
+}
+
+}  // namespace
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace nade;
+  static const bool kWritten = write_hot3d_hand();
+  (void)kWritten;
   const fuzz::InputFile file(fuzz::text_of(data, size), ".jsonl");
   Result<RecordingReader> reader = RecordingReader::open(file.path());
   if (!reader) return 0;

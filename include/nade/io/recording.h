@@ -54,7 +54,10 @@ enum class RecordingFormat : std::uint8_t {
   webxr_actions,
   joint_table,
   mediapipe_hands,
-  webxr_joints
+  webxr_joints,
+  bvh,
+  hot3d,
+  unity_hands
 };
 
 /// Reads a recording of any known format, plain or gzip, a frame at a time, in memory that does
