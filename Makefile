@@ -18,7 +18,7 @@ demo: setup ## Strokes on three objects, corrected and measured: a table under b
 test: setup ## Style, the optimised build, and all its tests
 	@scripts/test
 
-check: setup-windows setup-web ## What takes longer: clang-tidy, sanitizers, npm, Windows, a Slurm cluster, Debian 13 with g++ 14 and a headset (root)
+check: setup-windows setup-web ## What takes longer: clang-tidy, sanitizers, npm, the page, Windows, a Slurm cluster, Debian 13 with g++ 14 and a headset (root)
 	@scripts/check
 
 check-scale: setup ## workflows/snakemake on this machine and on a Slurm cluster on it (root); 680 MB of packages

@@ -574,7 +574,7 @@ namespace Nade
         }
     }
 
-    /// <summary>The skin of a hand that a program draws itself, measured once.</summary>
+    /// <summary>What can touch of a hand that a program draws itself, measured once.</summary>
     public sealed class Flesh : NadeHandle
     {
         /// <summary>The bind pose: x y z of each vertex and of its unit normal, three indices of each
@@ -582,26 +582,9 @@ namespace Nade
         public Flesh(Side side, float[] vertices, float[] normals, int[] triangles, byte[] bones,
                      float[] weights, HandJoint[] bind)
         {
-            int count = vertices == null ? 0 : vertices.Length / 3;
-            Expect(normals, 3 * count, "normals");
-            Expect(bones, 4 * count, "bones");
-            Expect(weights, 4 * count, "weights");
-            Expect(bind, Library.JointCount, "bind");
             using (var pins = new Pins())
             {
-                var mesh = new Native.HandMesh
-                {
-                    Size = (uint)Marshal.SizeOf(typeof(Native.HandMesh)),
-                    Side = side,
-                    VertexCount = (uint)count,
-                    TriangleCount = triangles == null ? 0 : (uint)triangles.Length / 3,
-                    Vertices = pins.Add(vertices),
-                    Normals = pins.Add(normals),
-                    Triangles = pins.Add(triangles),
-                    Bones = pins.Add(bones),
-                    Weights = pins.Add(weights),
-                    Bind = pins.Add(bind)
-                };
+                var mesh = pins.HandMesh("Flesh", side, vertices, normals, triangles, bones, weights, bind);
                 IntPtr made;
                 Own(Native.nade_flesh_create(ref mesh, out made), made);
             }
@@ -611,13 +594,65 @@ namespace Nade
         {
             return Native.nade_flesh_destroy(handle) == ErrorCode.Ok;
         }
+    }
 
-        private static void Expect(Array array, int length, string name)
+    /// <summary>The skin of a hand as it is drawn: one for each hand. Where its flesh is sunk in an
+    /// object it is flattened, so that none comes out on the other side of something thin.</summary>
+    public sealed class Skin : NadeHandle
+    {
+        /// <summary>The mesh as for Flesh.</summary>
+        public Skin(Side side, float[] vertices, float[] normals, int[] triangles, byte[] bones,
+                    float[] weights, HandJoint[] bind)
         {
-            int found = array == null ? 0 : array.Length;
-            if (found == length) return;
-            throw new NadeException(ErrorCode.Argument,
-                "Flesh: " + name + ": expected " + length + ", found " + found);
+            using (var pins = new Pins())
+            {
+                var mesh = pins.HandMesh("Skin", side, vertices, normals, triangles, bones, weights, bind);
+                IntPtr made;
+                Own(Native.nade_skin_create(ref mesh, out made), made);
+            }
+        }
+
+        protected override bool ReleaseHandle()
+        {
+            return Native.nade_skin_destroy(handle) == ErrorCode.Ok;
+        }
+
+        /// <summary>Where the joints carry the vertices, x y z of each, and their normals, which may be
+        /// null. The scale is that of what is drawn over the mesh's own size.</summary>
+        public ErrorCode Pose(HandJoint[] joints, double scale, float[] vertices, float[] normals)
+        {
+            if (IsClosed) return ErrorCode.Handle;
+            return Native.nade_skin_pose(this, Library.WholeHand(joints), scale, vertices, normals,
+                                         Count(vertices, normals));
+        }
+
+        /// <summary>Moves posed vertices out of a surface, null where none is near, and turns their
+        /// normals along. The object is drawn pressed in by `give` under the hand; 0: as it is.
+        /// </summary>
+        public ErrorCode Flatten(HandJoint[] joints, double scale, Surface surface, Placement placement,
+                                 double give, float[] vertices, float[] normals)
+        {
+            if (IsClosed || (surface != null && surface.IsClosed)) return ErrorCode.Handle;
+            return Native.nade_skin_flatten(this, Library.WholeHand(joints), scale, surface ?? Surface.None,
+                                            ref placement, give, vertices, normals,
+                                            Count(vertices, normals));
+        }
+
+        /// <summary>The same out of all objects of a scene.</summary>
+        public ErrorCode Flatten(HandJoint[] joints, double scale, Scene scene, double give,
+                                 float[] vertices, float[] normals)
+        {
+            if (IsClosed || !CanBeUsed(scene)) return ErrorCode.Handle;
+            return Native.nade_skin_flatten_scene(this, Library.WholeHand(joints), scale, scene, give,
+                                                  vertices, normals, Count(vertices, normals));
+        }
+
+        /// <summary>What does not fit is passed as no vertices, and refused.</summary>
+        private static UIntPtr Count(float[] vertices, float[] normals)
+        {
+            bool fits = vertices != null && vertices.Length % 3 == 0
+                && (normals == null || normals.Length == vertices.Length);
+            return (UIntPtr)(uint)(fits ? vertices.Length / 3 : 0);
         }
     }
 
@@ -817,6 +852,37 @@ namespace Nade
             handle.DangerousAddRef(ref added);
             handles.Add(handle);
             return handle.DangerousGetHandle();
+        }
+
+        internal Native.HandMesh HandMesh(string what, Side side, float[] vertices, float[] normals,
+                                          int[] triangles, byte[] bones, float[] weights, HandJoint[] bind)
+        {
+            int count = vertices == null ? 0 : vertices.Length / 3;
+            Expect(normals, 3 * count, what + ": normals");
+            Expect(bones, 4 * count, what + ": bones");
+            Expect(weights, 4 * count, what + ": weights");
+            Expect(bind, Library.JointCount, what + ": bind");
+            return new Native.HandMesh
+            {
+                Size = (uint)Marshal.SizeOf(typeof(Native.HandMesh)),
+                Side = side,
+                VertexCount = (uint)count,
+                TriangleCount = triangles == null ? 0 : (uint)triangles.Length / 3,
+                Vertices = Add(vertices),
+                Normals = Add(normals),
+                Triangles = Add(triangles),
+                Bones = Add(bones),
+                Weights = Add(weights),
+                Bind = Add(bind)
+            };
+        }
+
+        private static void Expect(Array array, int length, string name)
+        {
+            int found = array == null ? 0 : array.Length;
+            if (found == length) return;
+            throw new NadeException(ErrorCode.Argument,
+                name + ": expected " + length + ", found " + found);
         }
 
         public void Dispose()
@@ -1070,5 +1136,19 @@ namespace Nade
             Corrector corrector);
         [DllImport(Nade, CallingConvention = C)] internal static extern ErrorCode nade_corrector_destroy(
             IntPtr corrector);
+
+        [DllImport(Nade, CallingConvention = C)] internal static extern ErrorCode nade_skin_create(
+            ref HandMesh mesh, out IntPtr skin);
+        [DllImport(Nade, CallingConvention = C)] internal static extern ErrorCode nade_skin_pose(
+            Skin skin, [In] HandJoint[] joints, double scale, [In, Out] float[] vertices,
+            [In, Out] float[] normals, UIntPtr vertexCount);
+        [DllImport(Nade, CallingConvention = C)] internal static extern ErrorCode nade_skin_flatten(
+            Skin skin, [In] HandJoint[] joints, double scale, Surface surface, ref Placement placement,
+            double give, [In, Out] float[] vertices, [In, Out] float[] normals, UIntPtr vertexCount);
+        [DllImport(Nade, CallingConvention = C)] internal static extern ErrorCode nade_skin_flatten_scene(
+            Skin skin, [In] HandJoint[] joints, double scale, Scene scene, double give,
+            [In, Out] float[] vertices, [In, Out] float[] normals, UIntPtr vertexCount);
+        [DllImport(Nade, CallingConvention = C)] internal static extern ErrorCode nade_skin_destroy(
+            IntPtr skin);
     }
 }

@@ -21,11 +21,11 @@
  * nade_last_error() has the sentence, which names the argument. A call that failed has changed
  * nothing, what it would have written included. Nothing is thrown, printed or stopped.
  *
- * Handles. nade_surface, nade_scene, nade_flesh and nade_corrector come from their `create` and go
- * by their `destroy`. What still uses another keeps it: a surface may be destroyed while it is in a
- * scene, and is freed when the last that uses it goes. A handle that was destroyed is told
- * (NADE_ERROR_HANDLE) until its place is taken again, 64 or more destroyed handles of its kind
- * later; a pointer that never was a handle is not told. NULL may be destroyed.
+ * Handles. nade_surface, nade_scene, nade_flesh, nade_skin and nade_corrector come from their
+ * `create` and go by their `destroy`. What still uses another keeps it: a surface may be destroyed
+ * while it is in a scene, and is freed when the last that uses it goes. A handle that was destroyed
+ * is told (NADE_ERROR_HANDLE) until its place is taken again, 64 or more destroyed handles of its
+ * kind later; a pointer that never was a handle is not told. NULL may be destroyed.
  *
  * Structs. Those that begin with `size` may grow: set it to sizeof the struct before each use. The
  * library takes any size that ends with one of its fields, at least the first after `size`; fields
@@ -170,6 +170,7 @@ typedef struct nade_surface nade_surface;
 typedef struct nade_scene nade_scene;
 typedef struct nade_flesh nade_flesh;
 typedef struct nade_corrector nade_corrector;
+typedef struct nade_skin nade_skin;
 
 /* A joint: an XrPosef and a radius, 32 bytes. */
 typedef struct nade_joint {
@@ -486,6 +487,45 @@ NADE_API nade_status nade_corrector_set_feel(nade_corrector* corrector,
 /* Forgets everything about the hand so far. */
 NADE_API nade_status nade_corrector_reset(nade_corrector* corrector) NADE_NOEXCEPT;
 NADE_API nade_status nade_corrector_destroy(nade_corrector* corrector) NADE_NOEXCEPT;
+
+/* --- Skin ----------------------------------------------------------------------------------- */
+
+/* The skin of a hand of NADE_METHOD_NADE is sunk where its flesh gives way, by up to 12 mm. An
+ * opaque object hides that; of a thin or transparent one it comes out on the other side. For
+ * drawing it is flattened. Each frame, of one hand:
+ *
+ *   nade_skin_pose(skin, result.joints, scale, vertices, normals, count);
+ *   nade_skin_flatten(skin, result.joints, scale, surface, NULL, 0, vertices, normals, count);
+ *   draw the vertices
+ *
+ * `scale` > 0 is the size of what is drawn over the mesh's own: of a mesh that is drawn as it is,
+ * its bones merely put where the joints are, 1. `vertices` and `normals` have x, y and z of each of
+ * `vertex_count`, which is the mesh's; world coordinates. `normals` may be NULL. NADE_ERROR_DATA
+ * where the joints are no hand, see nade_fault. */
+
+/* Measures a hand mesh, which is copied. One for each hand that is drawn. Takes a fraction of a
+ * second. */
+NADE_API nade_status nade_skin_create(const nade_hand_mesh* mesh, nade_skin** skin) NADE_NOEXCEPT;
+/* Where the joints carry the mesh's vertices, each with up to four of them; for programs that have
+ * no such vertices from their engine. Does not allocate. */
+NADE_API nade_status nade_skin_pose(const nade_skin* skin, const nade_joint* joints, double scale,
+                                    float* vertices, float* normals,
+                                    size_t vertex_count) NADE_NOEXCEPT;
+/* Moves posed vertices out of the surface where they are sunk, by as much as flesh gives way, and
+ * turns their normals along; what is 2 mm above it or more stays bit for bit. `surface` and
+ * `placement` may be NULL, as for nade_corrector_update. `give_m` >= 0: the object is drawn pressed
+ * in by so much under the hand, and so much is left; 0 where it is drawn as it is. Keeps the
+ * surface until it gets another. Does not allocate; takes about as long as a correction. */
+NADE_API nade_status nade_skin_flatten(nade_skin* skin, const nade_joint* joints, double scale,
+                                       const nade_surface* surface, const nade_placement* placement,
+                                       double give_m, float* vertices, float* normals,
+                                       size_t vertex_count) NADE_NOEXCEPT;
+/* The same out of all objects of a scene. The scene need not be kept beyond the call. */
+NADE_API nade_status nade_skin_flatten_scene(nade_skin* skin, const nade_joint* joints,
+                                             double scale, const nade_scene* scene, double give_m,
+                                             float* vertices, float* normals,
+                                             size_t vertex_count) NADE_NOEXCEPT;
+NADE_API nade_status nade_skin_destroy(nade_skin* skin) NADE_NOEXCEPT;
 
 #ifdef __cplusplus
 }

@@ -10,6 +10,7 @@
 
 #include "nade.h"
 #include "nade/corrector.h"
+#include "nade/flatten_skin.h"
 #include "nade/flesh.h"
 #include "nade/mesh.h"
 #include "nade/scene.h"
@@ -46,6 +47,7 @@ class Held {
 using CSurface = Held<nade_surface, nade_surface_destroy>;
 using CScene = Held<nade_scene, nade_scene_destroy>;
 using CFlesh = Held<nade_flesh, nade_flesh_destroy>;
+using CSkin = Held<nade_skin, nade_skin_destroy>;
 using CCorrector = Held<nade_corrector, nade_corrector_destroy>;
 
 #define NADE_EXPECT_OK(call) EXPECT_EQ(call, NADE_OK) << nade_last_error()
@@ -256,11 +258,10 @@ TEST(CAbi, DrawsTheHandsOfTheClassesInAScene) {
   }
 }
 
-TEST(CAbi, MeasuresTheFleshOfAMesh) {
-  const HandMesh mesh = test::toy_mesh(Handedness::right);
-  const Joints bind = c_joints(mesh.bind);
+/// What it points to is the mesh's and `bind`.
+nade_hand_mesh c_hand_mesh(const HandMesh& mesh, const Joints& bind) {
   auto c_mesh = sized<nade_hand_mesh>();
-  c_mesh.side = NADE_RIGHT;
+  c_mesh.side = c_side(mesh.side);
   c_mesh.vertex_count = static_cast<std::uint32_t>(mesh.vertices.size());
   c_mesh.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size());
   c_mesh.vertices = mesh.vertices.data()->data();
@@ -269,6 +270,71 @@ TEST(CAbi, MeasuresTheFleshOfAMesh) {
   c_mesh.bones = mesh.bones.data()->data();
   c_mesh.weights = mesh.weights.data()->data();
   c_mesh.bind = bind.data();
+  return c_mesh;
+}
+
+TEST(CAbi, FlattensTheSkinOfTheClasses) {
+  const HandMesh mesh = test::toy_mesh(Handedness::right);
+  const Joints bind = c_joints(mesh.bind);
+  const nade_hand_mesh c_mesh = c_hand_mesh(mesh, bind);
+  CSkin skin;
+  NADE_ASSERT_OK(nade_skin_create(&c_mesh, skin.put()));
+  CSurface c_ball;
+  NADE_ASSERT_OK(nade_surface_create_sphere(0.15, c_ball.put()));
+  const nade_placement below = at(0, -0.15F, 0);
+  CScene c_scene;
+  NADE_ASSERT_OK(nade_scene_create(c_scene.put()));
+  NADE_ASSERT_OK(nade_scene_add(c_scene, 1, c_ball, &below, nullptr));
+  const SphereSurface ball(0.15);
+  const Object object(ball, {{{0.0, -0.15, 0.0}, Quat::Identity()}, 1.0});
+  SkinFlattener flattener(mesh);
+  HandCorrector corrector;
+  Stroke stroke(Handedness::right);
+  const std::size_t count = mesh.vertices.size();
+  std::vector<Eigen::Vector3f> expected(count);
+  std::vector<Eigen::Vector3f> normals(count);
+  std::vector<Eigen::Vector3f> posed(count);
+  std::vector<Eigen::Vector3f> c_normals(count);
+  std::size_t moved = 0;
+  for (int i = 0; i < 150; ++i) {
+    const HandPose drawn = rounded(corrector.update(stroke.frame(i), object, i * kFrame_ns).pose);
+    const double scale = hand_scale(mesh, drawn);
+    pose_skin(mesh, drawn, scale, expected, normals);
+    flattener.flatten(object, drawn, scale, 0.0, expected, expected, normals);
+    const Joints joints = c_joints(drawn);
+    float* const c_vertices = posed.data()->data();
+    NADE_ASSERT_OK(
+        nade_skin_pose(skin, joints.data(), scale, c_vertices, c_normals.data()->data(), count));
+    const std::vector<Eigen::Vector3f> before = posed;
+    if (i % 2 == 0) {
+      NADE_ASSERT_OK(nade_skin_flatten(skin, joints.data(), scale, c_ball, &below, 0.0, c_vertices,
+                                       c_normals.data()->data(), count));
+    } else {
+      NADE_ASSERT_OK(nade_skin_flatten_scene(skin, joints.data(), scale, c_scene, 0.0, c_vertices,
+                                             c_normals.data()->data(), count));
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      ASSERT_LT((posed[k] - expected[k]).norm(), 2e-6F) << "frame " << i;
+      ASSERT_LT((c_normals[k] - normals[k]).norm(), 1e-3F) << "frame " << i;
+      if (posed[k] != before[k]) ++moved;
+    }
+  }
+  EXPECT_GT(moved, 200U);
+  const Joints joints = c_joints(mesh.bind);
+  EXPECT_EQ(test::allocations_of([&] {
+              (void)nade_skin_pose(skin, joints.data(), 1.0, posed.data()->data(), nullptr, count);
+              (void)nade_skin_flatten(skin, joints.data(), 1.0, c_ball, &below, 0.0,
+                                      posed.data()->data(), nullptr, count);
+              (void)nade_skin_flatten_scene(skin, joints.data(), 1.0, c_scene, 0.0,
+                                            posed.data()->data(), nullptr, count);
+            }),
+            0U);
+}
+
+TEST(CAbi, MeasuresTheFleshOfAMesh) {
+  const HandMesh mesh = test::toy_mesh(Handedness::right);
+  const Joints bind = c_joints(mesh.bind);
+  const nade_hand_mesh c_mesh = c_hand_mesh(mesh, bind);
   CFlesh flesh;
   NADE_ASSERT_OK(nade_flesh_create(&c_mesh, flesh.put()));
   auto c_options = sized<nade_corrector_options>();

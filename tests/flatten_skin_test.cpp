@@ -11,6 +11,7 @@
 #include "generic_hand.h"
 #include "nade/corrector.h"
 #include "nade/mesh.h"
+#include "nade/scene.h"
 #include "support/allocation_counter.h"
 #include "support/meshes.h"
 #include "support/pressed_hand.h"
@@ -173,6 +174,45 @@ TEST_F(FlattenSkin, WhatIsFarFromTheSurfaceStaysBitForBit) {
   }
 }
 
+/// A palm on a table, the fingers on a box on it: under both skin is flat.
+TEST_F(FlattenSkin, InASceneNoSkinIsBelowAnyObject) {
+  const auto box = test::block({0.08F, 0.05F, 0.05F});
+  const Placement beside{{{0.0, 0.003, -0.13}, Quat::Identity()}, 1.0};
+  Scene scene;
+  scene.add(1, test::plane().surface());
+  scene.add(2, *box, beside);
+  const SphereSurface far_ball(0.1);
+  scene.add(3, far_ball, {{{5.0, 0.0, 0.0}, Quat::Identity()}, 1.0});
+  HandCorrector corrector(test::settling());
+  HandPose drawn;
+  for (int i = 0; i <= 100; ++i) {
+    drawn =
+        corrector
+            .update(at_depth(0.065 * std::min(1.0, i / 80.0) - 0.05), scene, i * test::kFrame_ns)
+            .pose;
+  }
+  const double scale = hand_scale(*mesh_, drawn);
+  SkinFlattener flattener(*mesh_);
+  Skin skin;
+  skin.posed.resize(mesh_->vertices.size());
+  skin.normals.resize(mesh_->vertices.size());
+  pose_skin(*mesh_, drawn, scale, skin.posed, skin.normals);
+  skin.flattened = skin.posed;
+  flattener.flatten(scene, drawn, scale, 0.0, skin.posed, skin.flattened, skin.normals);
+  for (const Object& object : {test::plane(), Object(*box, beside)}) {
+    EXPECT_LT(lowest(skin.posed, object), -0.0015);
+    EXPECT_GT(lowest(skin.flattened, object), -0.0005);
+  }
+  expect_whole(skin);
+
+  // The flattener has met the scene; alone the table is as ever.
+  const Skin on_table = flattened(*mesh_, flattener, pressed(0.02, test::plane()), test::plane());
+  EXPECT_GT(lowest(on_table.flattened, test::plane()), 0.00015);
+  Scene nowhere;
+  flattener.flatten(nowhere, drawn, scale, 0.0, skin.posed, skin.flattened, skin.normals);
+  EXPECT_TRUE(skin.flattened == skin.posed);
+}
+
 /// As it comes down and strokes along, flattened skin moves hardly faster than posed skin.
 TEST_F(FlattenSkin, ItFollowsAStrokeWithoutJumps) {
   HandCorrector corrector(test::settling());
@@ -295,6 +335,11 @@ TEST_F(FlattenSkin, AllocatesNothing) {
   EXPECT_EQ(test::allocations_of(
                 [&] { flattener.flatten(test::ball(), hand, 1.0, 0.0, skin, skin, normals); }),
             0U);
+  Scene scene;
+  scene.add(1, test::ball().surface(), test::ball().placement());
+  EXPECT_EQ(
+      test::allocations_of([&] { flattener.flatten(scene, hand, 1.0, 0.0, skin, skin, normals); }),
+      0U);
 }
 
 }  // namespace

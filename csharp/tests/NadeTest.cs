@@ -24,6 +24,7 @@ internal static class NadeTest
         CheckMistakes();
         CheckFrameMistakes();
         CheckStrokes();
+        CheckSkin();
         CheckReports();
         CheckAllocation();
         Console.WriteLine(failures == 0 ? "all well" : failures + " failed");
@@ -390,6 +391,60 @@ internal static class NadeTest
         }
     }
 
+    /// <summary>Three corners below the wrist and below the middle finger's tip.</summary>
+    private static Skin SmallSkin(HandJoint[] bind)
+    {
+        var vertices = new float[18];
+        var normals = new float[18];
+        var bones = new byte[24];
+        var weights = new float[24];
+        for (int i = 0; i < 6; ++i)
+        {
+            var bone = i < 3 ? JointIndex.Wrist : JointIndex.MiddleTip;
+            var at = bind[(int)bone].Position;
+            vertices[3 * i] = at.X + (i % 3 == 1 ? 0.004f : 0);
+            vertices[3 * i + 1] = at.Y - 0.008f;
+            vertices[3 * i + 2] = at.Z - (i % 3 == 2 ? 0.004f : 0);
+            normals[3 * i + 1] = -1;
+            bones[4 * i] = (byte)bone;
+            weights[4 * i] = 1;
+        }
+        return new Skin(Side.Right, vertices, normals, new[] { 0, 1, 2, 3, 4, 5 }, bones, weights, bind);
+    }
+
+    private static void CheckSkin()
+    {
+        var joints = Library.RestHand(Side.Right);
+        using (var plane = Surface.Plane())
+        using (var scene = new Scene())
+        using (var skin = SmallSkin(joints))
+        {
+            scene.Add(1, plane, Placement.Identity);
+            float down = 0.006f - joints[(int)JointIndex.MiddleTip].Position.Y;
+            for (int i = 0; i < joints.Length; ++i) joints[i].Position.Y += down;
+            var posed = new float[18];
+            var normals = new float[18];
+            Equal(skin.Pose(joints, 1, posed, normals), ErrorCode.Ok, "Pose");
+            Check(Math.Abs(posed[10] + 0.002) < 1e-6, "Pose");
+            var flat = (float[])posed.Clone();
+            Equal(skin.Flatten(joints, 1, plane, Placement.Identity, 0, flat, normals), ErrorCode.Ok, "Flatten");
+            Check(flat[10] > 0.0001f, "Flatten");
+            flat = (float[])posed.Clone();
+            Equal(skin.Flatten(joints, 1, scene, 0, flat, null), ErrorCode.Ok, "Flatten, scene");
+            Check(flat[10] > 0.0001f, "Flatten, scene");
+            Equal(skin.Flatten(joints, 1, null, Placement.Identity, 0, posed, normals), ErrorCode.Ok, "nothing");
+            Check(Math.Abs(posed[10] + 0.002) < 1e-6, "nothing");
+            Equal(skin.Pose(joints, 1, posed, new float[15]), ErrorCode.Argument, "normals");
+            Equal(skin.Pose(joints, 1, new float[15], null), ErrorCode.Argument, "vertices");
+            Equal(skin.Flatten(joints, double.NaN, scene, 0, flat, null), ErrorCode.Argument, "scale");
+            Equal(skin.Flatten(joints, 1, (Scene)null, 0, flat, null), ErrorCode.Handle, "no scene");
+            joints[1].Position.X = float.NaN;
+            Equal(skin.Pose(joints, 1, posed, null), ErrorCode.Data, "a hand that is none");
+            skin.Dispose();
+            Equal(skin.Pose(joints, 1, posed, null), ErrorCode.Handle, "skin gone");
+        }
+    }
+
     private static double Apart(HandJoint a, HandJoint b)
     {
         double x = a.Position.X - b.Position.X, y = a.Position.Y - b.Position.Y;
@@ -431,6 +486,8 @@ internal static class NadeTest
         var mesh = Surface.Mesh(octahedron, faces);
         var scene = new Scene();
         scene.Add(1, surface, Placement.At(0, -9, 0));
+        var skin = SmallSkin(joints);
+        var vertices = new float[18];
         object kept = null;
         Check(Collections(Times, i => kept = new object()) > 0, "what is allocated shows");
         Check(kept != null, "kept");
@@ -438,6 +495,8 @@ internal static class NadeTest
         {
             corrector.Update(Side.Right, joints, surface, i * FrameNs, hand);
             corrector.Preview(Side.Right, joints, drawn);
+            skin.Pose(joints, 1, vertices, null);
+            skin.Flatten(joints, 1, surface, Placement.Identity, 0, vertices, null);
         }), 0, "a frame allocates");
         Equal(Collections(Times / 2, i =>
         {

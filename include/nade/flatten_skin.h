@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,9 @@
 
 namespace nade {
 
+class NearObjects;
+class Scene;
+
 /// Flattens the skin of a hand of method `nade` where its flesh is sunk in an object, so that none
 /// is below the surface, or on the other side of something thin. For what is drawn alone: contacts
 /// and metrics are of the skin as it is posed. Keep one for each hand that is drawn.
@@ -17,6 +21,11 @@ class SkinFlattener {
  public:
   /// Measures the flesh of the mesh, as of SkinMap.
   explicit SkinFlattener(const HandMesh& mesh);
+  SkinFlattener(const SkinFlattener&) = delete;
+  SkinFlattener& operator=(const SkinFlattener&) = delete;
+  SkinFlattener(SkinFlattener&& other) noexcept;
+  SkinFlattener& operator=(SkinFlattener&& other) noexcept;
+  ~SkinFlattener();
 
   /// `posed`: the skin as `pose_skin` gives it for `hand` and `scale`, world. `flattened` may be
   /// the same, and differs where skin is nearer to the surface than 2 mm, or sunk: there it lies
@@ -28,6 +37,10 @@ class SkinFlattener {
   /// object; skin is flattened so much below it. A pose that cannot be used leaves the skin as it
   /// is. Never allocates.
   void flatten(const Object& object, const HandPose& hand, double scale, double give_m,
+               std::span<const Eigen::Vector3f> posed, std::span<Eigen::Vector3f> flattened,
+               std::span<Eigen::Vector3f> normals) noexcept;
+  /// The same on all objects of a scene that are within reach.
+  void flatten(const Scene& scene, const HandPose& hand, double scale, double give_m,
                std::span<const Eigen::Vector3f> posed, std::span<Eigen::Vector3f> flattened,
                std::span<Eigen::Vector3f> normals) noexcept;
 
@@ -54,6 +67,7 @@ class SkinFlattener {
 
   void cut(const HandMesh& mesh);
   void share(const HandMesh& mesh);
+  void meet(const Object& object) noexcept;
   void find_ways_out(const Object& object, const HandPose& hand, double scale,
                      double give_m) noexcept;
   [[nodiscard]] Vec3 way_out(std::size_t vertex) const noexcept;
@@ -62,6 +76,8 @@ class SkinFlattener {
   std::vector<Piece> pieces_;
   std::vector<Share> shares_;
   std::vector<std::uint32_t> first_share_;  ///< by vertex, and the end of the last
+  ObjectIdentity met_;                      ///< what the hints are of
+  std::unique_ptr<NearObjects> near_;
 };
 
 }  // namespace nade

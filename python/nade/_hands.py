@@ -98,6 +98,42 @@ def _one_hand(given: Any) -> npt.NDArray[Any]:
     return np.ascontiguousarray(given)
 
 
+class _HandMesh:
+    """A hand mesh as the library has it, and the arrays that it points to."""
+
+    def __init__(
+        self,
+        side: str,
+        vertices: npt.ArrayLike,
+        normals: npt.ArrayLike,
+        triangles: npt.ArrayLike,
+        bones: npt.ArrayLike,
+        weights: npt.ArrayLike,
+        bind: npt.NDArray[Any],
+    ) -> None:
+        number_of_side = choice("side", side, SIDES)
+        at = numbers("vertices", vertices, (None, 3), np.float32)
+        up = numbers("normals", normals, (len(at), 3), np.float32)
+        corners = numbers("triangles", triangles, (None, 3), np.uint32)
+        on = numbers("bones", bones, (len(at), 4), np.uint8)
+        shares = numbers("weights", weights, (len(at), 4), np.float32)
+        pose = _one_hand(bind)
+        self.arrays = (at, up, corners, on, shares, pose)
+        self.vertex_count = len(at)
+        self.struct = _library.HandMesh(
+            size=ctypes.sizeof(_library.HandMesh),
+            side=number_of_side,
+            vertex_count=len(at),
+            triangle_count=len(corners),
+            vertices=at.ctypes.data,
+            normals=up.ctypes.data,
+            triangles=corners.ctypes.data,
+            bones=on.ctypes.data,
+            weights=shares.ctypes.data,
+            bind=pose.ctypes.data,
+        )
+
+
 class Flesh(Owner):
     """What can touch of a hand that you draw yourself: its skin, measured once.
 
@@ -118,27 +154,92 @@ class Flesh(Owner):
         weights: npt.ArrayLike,
         bind: npt.NDArray[Any],
     ) -> None:
-        number_of_side = choice("side", side, SIDES)
-        at = numbers("vertices", vertices, (None, 3), np.float32)
-        up = numbers("normals", normals, (len(at), 3), np.float32)
-        corners = numbers("triangles", triangles, (None, 3), np.uint32)
-        on = numbers("bones", bones, (len(at), 4), np.uint8)
-        shares = numbers("weights", weights, (len(at), 4), np.float32)
-        pose = _one_hand(bind)
-        mesh = _library.HandMesh(
-            size=ctypes.sizeof(_library.HandMesh),
-            side=number_of_side,
-            vertex_count=len(at),
-            triangle_count=len(corners),
-            vertices=at.ctypes.data,
-            normals=up.ctypes.data,
-            triangles=corners.ctypes.data,
-            bones=on.ctypes.data,
-            weights=shares.ctypes.data,
-            bind=pose.ctypes.data,
-        )
-        self._own(library.nade_flesh_create, library.nade_flesh_destroy, ctypes.byref(mesh))
+        mesh = _HandMesh(side, vertices, normals, triangles, bones, weights, bind)
+        self._own(library.nade_flesh_create, library.nade_flesh_destroy, ctypes.byref(mesh.struct))
         self.side = side
+
+
+class Skin(Owner):
+    """The skin of a hand as it is drawn, flattened where its flesh is sunk in an object.
+
+    The mesh as for `Flesh`. One for each hand that is drawn, and one thread at a time.
+    """
+
+    side: str
+    vertex_count: int
+
+    def __init__(
+        self,
+        side: str,
+        vertices: npt.ArrayLike,
+        normals: npt.ArrayLike,
+        triangles: npt.ArrayLike,
+        bones: npt.ArrayLike,
+        weights: npt.ArrayLike,
+        bind: npt.NDArray[Any],
+    ) -> None:
+        mesh = _HandMesh(side, vertices, normals, triangles, bones, weights, bind)
+        self._own(library.nade_skin_create, library.nade_skin_destroy, ctypes.byref(mesh.struct))
+        self.side = side
+        self.vertex_count = mesh.vertex_count
+        self._lock = threading.Lock()
+
+    def pose(
+        self, joints: npt.NDArray[Any], scale: float = 1.0
+    ) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]]:
+        """Where `joints` (26,) of `JOINT` carry vertices and normals, each (V, 3).
+
+        `scale` is the size of what is drawn over the mesh's own: 1 where its bones are merely put
+        where the joints are.
+        """
+        hand, size = _one_hand(joints), number("scale", scale)
+        vertices = np.zeros((self.vertex_count, 3), np.float32)
+        normals = np.zeros_like(vertices)
+        check(
+            library.nade_skin_pose(
+                self._handle,
+                hand.ctypes.data,
+                size,
+                vertices.ctypes.data,
+                normals.ctypes.data,
+                self.vertex_count,
+            )
+        )
+        return vertices, normals
+
+    def flatten(
+        self,
+        joints: npt.NDArray[Any],
+        surface: Union[Surface, Scene, None],
+        vertices: npt.ArrayLike,
+        normals: npt.ArrayLike,
+        placement: Optional[npt.NDArray[Any]] = None,
+        scale: float = 1.0,
+        give: float = 0.0,
+    ) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]]:
+        """Posed vertices and normals, moved out of a surface or of all that is in a scene.
+
+        What is 2 mm above it or more stays bit for bit. `give`, metres: the object is drawn pressed
+        in by so much under the hand; 0 where it is drawn as it is.
+        """
+        hand, size, pressed = _one_hand(joints), number("scale", scale), number("give", give)
+        shape = (self.vertex_count, 3)
+        at = numbers("vertices", vertices, shape, np.float32).copy()
+        up = numbers("normals", normals, shape, np.float32).copy()
+        skin = (at.ctypes.data, up.ctypes.data, self.vertex_count)
+        placed = placements(placement, None)
+        with self._lock:
+            if isinstance(surface, Scene):
+                if placed is not None:
+                    raise ValueError("placement: expected none beside a scene, which has its own")
+                flatten = library.nade_skin_flatten_scene
+                check(flatten(self._handle, hand.ctypes.data, size, surface._handle, pressed, *skin))
+            else:
+                touched = None if surface is None else handle_of(surface)
+                place = None if placed is None else placed.ctypes.data
+                flatten = library.nade_skin_flatten
+                check(flatten(self._handle, hand.ctypes.data, size, touched, place, pressed, *skin))
+        return at, up
 
 
 @dataclasses.dataclass(frozen=True)

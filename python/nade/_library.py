@@ -234,6 +234,30 @@ STATUS_FUNCTIONS: dict[str, Sequence[Any]] = {
     "nade_corrector_set_feel": (c_void_p, POINTER(Feel)),
     "nade_corrector_reset": (c_void_p,),
     "nade_corrector_destroy": (c_void_p,),
+    "nade_skin_create": (POINTER(HandMesh), POINTER(c_void_p)),
+    "nade_skin_pose": (c_void_p, c_void_p, c_double, c_void_p, c_void_p, c_size_t),
+    "nade_skin_flatten": (
+        c_void_p,
+        c_void_p,
+        c_double,
+        c_void_p,
+        c_void_p,
+        c_double,
+        c_void_p,
+        c_void_p,
+        c_size_t,
+    ),
+    "nade_skin_flatten_scene": (
+        c_void_p,
+        c_void_p,
+        c_double,
+        c_void_p,
+        c_double,
+        c_void_p,
+        c_void_p,
+        c_size_t,
+    ),
+    "nade_skin_destroy": (c_void_p,),
 }
 
 

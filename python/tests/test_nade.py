@@ -98,6 +98,22 @@ def ball(radius: float, rings: int = 24, sectors: int = 32) -> Any:
     return np.array(rows, np.float32), np.array(faces, np.uint32)
 
 
+def hand_of_balls() -> Any:
+    """The arguments of `nade.Flesh` and `nade.Skin` for a hand that has a ball at each joint."""
+    bind = nade.rest_hand()
+    vertices, triangles = ball(1.0, 6, 8)
+    count = len(vertices)
+    return (
+        "right",
+        np.concatenate([bind["position"][i] + 0.008 * vertices for i in range(1, 26)]),
+        np.tile(vertices, (25, 1)),
+        np.concatenate([triangles + i * count for i in range(25)]),
+        np.repeat(np.arange(1, 26), count)[:, np.newaxis] * [1, 0, 0, 0],
+        np.tile([1.0, 0, 0, 0], (25 * count, 1)),
+        bind,
+    )
+
+
 def read_dog(path: str) -> Any:
     """Vertices and triangles of a .glb whose first mesh stands where its file has it."""
     data = pathlib.Path(path).read_bytes()
@@ -438,22 +454,40 @@ class Correcting(unittest.TestCase):
         np.testing.assert_array_equal(corrector.preview(ahead), ahead)
 
     def test_flesh_of_a_hand_of_ones_own(self) -> None:
-        bind = nade.rest_hand()
-        vertices, triangles = ball(1.0, 6, 8)
-        parts = [bind["position"][i] + 0.008 * vertices for i in range(1, 26)]
-        count = len(vertices)
-        flesh = nade.Flesh(
-            "right",
-            np.concatenate(parts),
-            np.tile(vertices, (25, 1)),
-            np.concatenate([triangles + i * count for i in range(25)]),
-            np.repeat(np.arange(1, 26), count)[:, np.newaxis] * [1, 0, 0, 0],
-            np.tile([1.0, 0, 0, 0], (25 * count, 1)),
-            bind,
-        )
+        flesh = nade.Flesh(*hand_of_balls())
         positions, rotations = stroke(noise_m=0.0)
         drawn = nade.correct(positions, rotations, times(len(positions)), nade.Plane(), flesh=flesh)
         self.assertEqual(drawn.statuses[-1], nade.HandStatus.CORRECTED)
+
+    def test_skin_is_flattened_where_it_is_sunk(self) -> None:
+        mesh = hand_of_balls()
+        skin, plane, scene = nade.Skin(*mesh), nade.Plane(), nade.Scene()
+        scene.add(1, plane)
+        vertices, normals = skin.pose(nade.rest_hand())
+        np.testing.assert_allclose(vertices, mesh[1], atol=1e-6)
+        np.testing.assert_allclose(normals, mesh[2], atol=1e-5)
+        positions, rotations = stroke(noise_m=0.0)
+        drawn = nade.correct(
+            positions, rotations, times(len(positions)), plane, flesh=nade.Flesh(*mesh)
+        )
+        joints = nade.joints(drawn.positions[-1], drawn.rotations[-1])
+        vertices, normals = skin.pose(joints)
+        flat, turned = skin.flatten(joints, plane, vertices, normals)
+        sunk = vertices[:, 1] < -0.001
+        self.assertGreater(sunk.sum(), 5)
+        self.assertGreater(flat[:, 1].min(), 0.0001)
+        self.assertTrue((turned[sunk, 1] < -0.9).all())
+        high = vertices[:, 1] > 0.0021
+        np.testing.assert_array_equal(flat[high], vertices[high])
+        for same in (
+            skin.flatten(joints, scene, vertices, normals),
+            skin.flatten(joints, plane, vertices, normals, nade.placement()),
+        ):
+            np.testing.assert_allclose(same[0], flat, atol=1e-6)
+        soft, _ = skin.flatten(joints, plane, vertices, normals, give=0.001)
+        self.assertAlmostEqual(float(soft[:, 1].min()), -0.0008, places=4)
+        as_it_is, _ = skin.flatten(joints, None, vertices, normals)
+        np.testing.assert_array_equal(as_it_is, vertices)
 
     def test_threads_share_a_mesh(self) -> None:
         mesh = nade.Mesh(*ball(0.15))
@@ -511,6 +545,8 @@ class Mistakes(unittest.TestCase):
         one = nade.placement([0, 0, 0])
         correct, corrector = nade.correct, nade.Corrector()
         mesh = nade.Mesh(*ball(0.1))
+        skin = nade.Skin(*hand_of_balls())
+        at, up = skin.pose(hand)
         # Each a call, what it raises, and what its sentence has to say.
         cases: list[tuple[Any, type, str]] = [
             (lambda: nade.Sphere(-1), nade.NadeError, "radius_m: expected a number above 0"),
@@ -543,6 +579,12 @@ class Mistakes(unittest.TestCase):
             (lambda: nade.Corrector("best"), ValueError, "method: .* none, paper, nade"),
             (lambda: nade.Corrector(release=2), nade.NadeError, "release_s"),
             (lambda: nade.Corrector(flesh=3), TypeError, "flesh: expected a nade.Flesh"),
+            (lambda: skin.pose(hand, 0), nade.NadeError, "scale: expected a number above 0"),
+            (lambda: skin.flatten(hand, plane, at[1:], up), ValueError, "vertices"),
+            (lambda: skin.flatten(hand, plane, at, up * np.nan), nade.NadeError, "normals"),
+            (lambda: skin.flatten(hand, plane, at, up, give=-1), nade.NadeError, "give_m"),
+            (lambda: skin.flatten(hand, "plane", at, up), TypeError, "surface"),
+            (lambda: skin.flatten(hand, scene, at, up, one), ValueError, "scene"),
             (lambda: nade.rest_hand("top"), ValueError, "side: expected one of left, right"),
             (lambda: corrector.update(hand, "plane", 0), TypeError, "surface"),
             (lambda: corrector.update(hand[:25], plane, 0), ValueError, r"joints: .* \(26,\)"),

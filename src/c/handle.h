@@ -13,6 +13,7 @@
 
 #include "failure.h"
 #include "nade/corrector.h"
+#include "nade/flatten_skin.h"
 #include "nade/mesh.h"
 #include "nade/surface_group.h"
 
@@ -51,12 +52,19 @@ struct HeldCorrector {
   HandCorrector corrector;
 };
 
+struct HeldSkin {
+  std::shared_ptr<const HeldSurface> surface;  ///< the last: its address must not be another's
+  HandMesh mesh;
+  SkinFlattener flattener;
+};
+
 }  // namespace nade::c_abi
 
 struct nade_surface : nade::c_abi::HandlePlace<std::shared_ptr<nade::c_abi::HeldSurface>> {};
 struct nade_scene : nade::c_abi::HandlePlace<nade::c_abi::HeldScene> {};
 struct nade_flesh : nade::c_abi::HandlePlace<nade::c_abi::HeldFlesh> {};
 struct nade_corrector : nade::c_abi::HandlePlace<nade::c_abi::HeldCorrector> {};
+struct nade_skin : nade::c_abi::HandlePlace<nade::c_abi::HeldSkin> {};
 
 namespace nade::c_abi {
 
@@ -81,6 +89,11 @@ template <>
 struct HandleKind<nade_corrector> {
   static constexpr std::uint32_t kMark = 0x6e616404;
   static constexpr const char* kName = "corrector";
+};
+template <>
+struct HandleKind<nade_skin> {
+  static constexpr std::uint32_t kMark = 0x6e616405;
+  static constexpr const char* kName = "skin";
 };
 
 #ifdef __STDCPP_THREADS__

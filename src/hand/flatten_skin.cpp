@@ -10,6 +10,7 @@
 #include "nade/skin.h"
 #include "ramps.h"
 #include "skin_pieces.h"
+#include "surface/near_objects.h"
 
 namespace nade {
 namespace {
@@ -84,12 +85,15 @@ Vec3 way_out_of(const SurfacePoint& near, const Vec3& point) noexcept {
 
 }  // namespace
 
-SkinFlattener::SkinFlattener(const HandMesh& mesh) {
+SkinFlattener::SkinFlattener(const HandMesh& mesh) : near_(std::make_unique<NearObjects>()) {
   NADE_ASSERT(mesh.normals.size() == mesh.vertices.size());
   flesh_m_ = measure_skin(mesh).flesh_depth_m;
   cut(mesh);
   share(mesh);
 }
+SkinFlattener::SkinFlattener(SkinFlattener&&) noexcept = default;
+SkinFlattener& SkinFlattener::operator=(SkinFlattener&&) noexcept = default;
+SkinFlattener::~SkinFlattener() = default;
 
 void SkinFlattener::cut(const HandMesh& mesh) {
   // The palmar half of a bone's skin, and its back.
@@ -153,6 +157,13 @@ void SkinFlattener::share(const HandMesh& mesh) {
   }
 }
 
+/// Hints are of one object.
+void SkinFlattener::meet(const Object& object) noexcept {
+  if (met_ == object.identity()) return;
+  met_ = object.identity();
+  for (Piece& piece : pieces_) piece.hint = {};
+}
+
 void SkinFlattener::find_ways_out(const Object& object, const HandPose& hand, double scale,
                                   double give_m) noexcept {
   for (Piece& piece : pieces_) {
@@ -185,6 +196,13 @@ Vec3 SkinFlattener::way_out(std::size_t vertex) const noexcept {
   return sum;
 }
 
+void SkinFlattener::flatten(const Scene& scene, const HandPose& hand, double scale, double give_m,
+                            std::span<const Vec3f> posed, std::span<Vec3f> flattened,
+                            std::span<Vec3f> normals) noexcept {
+  if (is_usable(hand)) near_->gather(scene, hand, nullptr);
+  flatten(near_->object(), hand, scale, give_m, posed, flattened, normals);
+}
+
 void SkinFlattener::flatten(const Object& object, const HandPose& hand, double scale, double give_m,
                             std::span<const Vec3f> posed, std::span<Vec3f> flattened,
                             std::span<Vec3f> normals) noexcept {
@@ -194,6 +212,7 @@ void SkinFlattener::flatten(const Object& object, const HandPose& hand, double s
     std::copy(posed.begin(), posed.end(), flattened.begin());
   }
   if (!is_usable(hand) || !std::isfinite(scale) || !(scale > 0.0) || !(give_m >= 0.0)) return;
+  meet(object);
   find_ways_out(object, hand, scale, give_m);
   for (const Piece& piece : pieces_) {
     for (const std::size_t i : piece.vertices) {

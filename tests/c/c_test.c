@@ -367,6 +367,85 @@ static void check_wrong_fleshes(void) {
   CHECK_OK(nade_flesh_destroy(flesh));
 }
 
+/* A hand with some skin at its wrist and its middle finger's tip. */
+static void check_skins(void) {
+  nade_skin* skin = NULL;
+  nade_surface* plane = NULL;
+  nade_scene* scene = NULL;
+  nade_joint joints[NADE_JOINT_COUNT];
+  float vertices[18];
+  float normals[18] = {0};
+  float posed[18];
+  const uint32_t triangles[6] = {0, 1, 2, 3, 4, 5};
+  const uint8_t bones[24] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 15, 0, 0, 0, 15, 0, 0, 0, 15};
+  float weights[24] = {0};
+  nade_hand_mesh mesh = {.size = sizeof mesh, .side = NADE_LEFT};
+  CHECK(nade_skin_create(&mesh, &skin) == NADE_ERROR_ARGUMENT);
+  CHECK(nade_skin_create(NULL, &skin) == NADE_ERROR_ARGUMENT);
+  CHECK(nade_skin_create(&mesh, NULL) == NADE_ERROR_ARGUMENT);
+  CHECK_OK(nade_rest_hand(NADE_LEFT, joints));
+  for (int i = 0; i < 6; ++i) {
+    const float* const at = joints[i < 3 ? NADE_JOINT_WRIST : NADE_JOINT_MIDDLE_TIP].position;
+    for (int k = 0; k < 3; ++k) vertices[3 * i + k] = at[k];
+    vertices[3 * i] += 0.004f * (float)(i % 3 == 1);
+    vertices[3 * i + 1] -= 0.008f;
+    vertices[3 * i + 2] -= 0.004f * (float)(i % 3 == 2);
+    normals[3 * i + 1] = -1;
+    weights[4 * i] = 1;
+  }
+  mesh.vertex_count = 6;
+  mesh.triangle_count = 2;
+  mesh.vertices = vertices;
+  mesh.normals = normals;
+  mesh.triangles = triangles;
+  mesh.bones = bones;
+  mesh.weights = weights;
+  mesh.bind = joints;
+  CHECK_OK(nade_skin_create(&mesh, &skin));
+  CHECK_OK(nade_surface_create_plane(&plane));
+  CHECK_OK(nade_scene_create(&scene));
+  CHECK_OK(nade_scene_add(scene, 1, plane, NULL, NULL));
+
+  /* The fingertip's skin 2 mm below y = 0. */
+  const float down = 0.006f - joints[NADE_JOINT_MIDDLE_TIP].position[1];
+  for (int i = 0; i < NADE_JOINT_COUNT; ++i) joints[i].position[1] += down;
+  CHECK_OK(nade_skin_pose(skin, joints, 1, posed, NULL, 6));
+  CHECK(fabsf(posed[10] + 0.002f) < 1e-6f);
+  for (int way = 0; way < 3; ++way) {
+    memcpy(vertices, posed, sizeof posed);
+    if (way == 0) CHECK_OK(nade_skin_flatten(skin, joints, 1, plane, NULL, 0, vertices, NULL, 6));
+    if (way == 1)
+      CHECK_OK(nade_skin_flatten_scene(skin, joints, 1, scene, 0, vertices, normals, 6));
+    if (way == 2) CHECK_OK(nade_skin_flatten(skin, joints, 1, NULL, NULL, 0, vertices, normals, 6));
+    CHECK(way == 2 ? memcmp(vertices, posed, sizeof posed) == 0 : vertices[10] > 0.0001f);
+  }
+
+  CHECK(nade_skin_pose(NULL, joints, 1, vertices, NULL, 6) == NADE_ERROR_HANDLE);
+  CHECK(nade_skin_pose(skin, NULL, 1, vertices, NULL, 6) == NADE_ERROR_ARGUMENT);
+  CHECK(nade_skin_pose(skin, joints, 0, vertices, NULL, 6) == NADE_ERROR_ARGUMENT);
+  CHECK(nade_skin_pose(skin, joints, NAN, vertices, NULL, 6) == NADE_ERROR_ARGUMENT);
+  CHECK(nade_skin_pose(skin, joints, 1, NULL, normals, 6) == NADE_ERROR_ARGUMENT);
+  CHECK(nade_skin_pose(skin, joints, 1, vertices, normals, 5) == NADE_ERROR_ARGUMENT);
+  CHECK(strstr(nade_last_error(), "vertex_count: expected 6, as the mesh has, found 5") != NULL);
+  CHECK(nade_skin_flatten(skin, joints, 1, plane, NULL, -1, vertices, NULL, 6) ==
+        NADE_ERROR_ARGUMENT);
+  CHECK(nade_skin_flatten(skin, joints, 1, plane, NULL, NAN, vertices, NULL, 6) ==
+        NADE_ERROR_ARGUMENT);
+  CHECK(nade_skin_flatten_scene(skin, joints, 1, NULL, 0, vertices, NULL, 6) == NADE_ERROR_HANDLE);
+  normals[4] = NAN;
+  CHECK(nade_skin_flatten_scene(skin, joints, 1, scene, 0, vertices, normals, 6) ==
+        NADE_ERROR_ARGUMENT);
+  joints[NADE_JOINT_WRIST].position[2] = INFINITY;
+  CHECK(nade_skin_flatten(skin, joints, 1, plane, NULL, 0, vertices, NULL, 6) == NADE_ERROR_DATA);
+  CHECK(strstr(nade_last_error(), "joints: ") != NULL);
+  CHECK(memcmp(vertices, posed, sizeof posed) == 0);
+
+  CHECK_OK(nade_surface_destroy(plane)); /* the skin keeps it */
+  CHECK_OK(nade_scene_destroy(scene));
+  CHECK_OK(nade_skin_destroy(skin));
+  CHECK(nade_skin_destroy(skin) == NADE_ERROR_HANDLE);
+}
+
 /* The half-space below y = 0, once more. */
 static int32_t closest_on_floor(void* user, const double query[3], double max_distance,
                                 uint32_t* hint, nade_surface_point* point) {
@@ -454,6 +533,7 @@ int main(void) {
   check_wrong_options();
   check_wrong_frames();
   check_wrong_fleshes();
+  check_skins();
   check_strokes();
   if (failures == 0) printf("all well\n");
   return failures == 0 ? 0 : 1;

@@ -7,48 +7,14 @@ import {fileURLToPath} from 'node:url';
 
 import {build} from 'esbuild';
 
+import {readGlb, writeGlb} from '../glb.js';
+
 const MOST_BYTES = 3e6;
 /** What the page asks for by itself. */
 const FIRST = ['index.html', 'style.css', 'icon.svg', 'main.js', 'nade.wasm', 'right.glb',
                'dog.glb', 'relaxed.jsonl'];
 const here = dirname(fileURLToPath(import.meta.url));
 const [share, stroke, out] = process.argv.slice(2);
-
-/** glTF's JSON and its binary part. */
-function readGlb(file) {
-  const jsonBytes = file.readUInt32LE(12);
-  const binary = file.subarray(28 + jsonBytes);
-  const gltf = JSON.parse(file.subarray(20, 20 + jsonBytes).toString());
-  const sizes = {SCALAR: 1, VEC3: 3, VEC4: 4, MAT4: 16};
-  const kinds = {5121: Uint8Array, 5125: Uint32Array, 5126: Float32Array};
-  const read = (index) => {
-    const {bufferView, count, type, componentType} = gltf.accessors[index];
-    const from = binary.byteOffset + (gltf.bufferViews[bufferView].byteOffset ?? 0);
-    const Kind = kinds[componentType];
-    const length = count * sizes[type];
-    return new Kind(binary.buffer.slice(from, from + length * Kind.BYTES_PER_ELEMENT));
-  };
-  return {gltf, read};
-}
-
-function writeGlb(gltf, parts) {
-  let byteOffset = 0;
-  const padded = parts.map((part) => {
-    const bytes = Buffer.from(part.buffer);
-    return Buffer.concat([bytes, Buffer.alloc(-bytes.length & 3)]);
-  });
-  padded.forEach((part, i) => {
-    Object.assign(gltf.bufferViews[i], {buffer: 0, byteOffset, byteLength: parts[i].byteLength});
-    byteOffset += part.length;
-  });
-  gltf.buffers = [{byteLength: byteOffset}];
-  const json = Buffer.from(JSON.stringify(gltf));
-  const text = Buffer.concat([json, Buffer.alloc(-json.length & 3, ' ')]);
-  const number = (...values) => Buffer.from(new Uint32Array(values).buffer);
-  return Buffer.concat([
-    number(0x46546c67, 2, 28 + text.length + byteOffset), number(text.length, 0x4e4f534a), text,
-    number(byteOffset, 0x004e4942), ...padded]);
-}
 
 /** The dog with whole numbers of 16 and 8 bits: half of its size. */
 function smallDog(file) {

@@ -3,16 +3,18 @@ import {Corrector} from './corrector.js';
 import {badArgument, NadeError} from './error.js';
 import {HAND_FLOATS} from './layout.js';
 import {Scene} from './scene.js';
+import {Skin} from './skin.js';
 import {expectLength, sideNumber} from './structs.js';
 import {create, createGroup, createMesh, GroupSurface, MeshSurface, Surface,
         withDoubles} from './surface.js';
-import type {CorrectorOptions, Hand, Placement, Side} from './types.js';
+import type {CorrectorOptions, Hand, HandMesh, Placement, Side} from './types.js';
 import {Wasm} from './wasm.js';
 
 export {Corrector, Result} from './corrector.js';
 export {NadeError} from './error.js';
 export {HAND_FLOATS, JOINT_FLOATS} from './layout.js';
 export {Scene} from './scene.js';
+export {Skin} from './skin.js';
 export {GroupSurface, MeshSurface, Surface} from './surface.js';
 export * from './types.js';
 
@@ -85,6 +87,8 @@ export class Nade {
 
   scene(): Scene { return new Scene(this.wasm); }
   corrector(options: CorrectorOptions = {}): Corrector { return new Corrector(this.wasm, options); }
+  /** For drawing: the skin of a hand mesh, flattened where it is sunk. Takes some milliseconds. */
+  skin(mesh: HandMesh): Skin { return new Skin(this.wasm, mesh); }
 
   /** The built-in hand at rest: the palm joint in the origin, palm down, fingers along -Z. */
   restHand(side: Side): Hand {

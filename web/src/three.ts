@@ -1,9 +1,10 @@
 /** nade with three.js. */
 import {Box3, Group, Quaternion, Vector3} from 'three';
-import type {Object3D, WebXRSpaceEventMap, XRHandSpace, XRJointSpace} from 'three';
+import type {Object3D, SkinnedMesh, WebXRSpaceEventMap, XRHandSpace, XRJointSpace} from 'three';
 import type {Corrector, Result} from './corrector.js';
 import {DrawnVertices} from './drawn_vertices.js';
 import {badArgument} from './error.js';
+import {FlattenedSkin, isHandMesh} from './flattened_skin.js';
 import {fillPalm} from './joints.js';
 import {HAND_FLOATS, JOINT_FLOATS} from './layout.js';
 import type {Nade} from './nade.js';
@@ -11,6 +12,8 @@ import type {Scene} from './scene.js';
 import type {MeshSurface, Surface} from './surface.js';
 import {JOINT_NAMES} from './types.js';
 import type {CorrectorOptions, Feel, Hand, Placement, Side} from './types.js';
+
+export {FlattenedSkin} from './flattened_skin.js';
 
 const WRIST = 1;
 
@@ -40,9 +43,17 @@ export class CorrectedHand extends Group<WebXRSpaceEventMap> {
   result: Result | null = null;
   private readonly pose: Hand = new Float32Array(HAND_FLOATS);
   private side: Side | null = null;
+  private skin: FlattenedSkin | null = null;
+  private readonly flattens: boolean;
 
-  constructor(nade: Nade, readonly tracked: XRHandSpace, options?: CorrectorOptions) {
+  /**
+   * A skinned mesh that is put into it, as XRHandModelFactory does, is drawn with its skin flattened
+   * where it is sunk; not with `flatten: false`, nor by another method than `nade`.
+   */
+  constructor(private readonly nade: Nade, readonly tracked: XRHandSpace,
+              options: CorrectorOptions & {flatten?: boolean} = {}) {
     super();
+    this.flattens = (options.flatten ?? true) && (options.method ?? 'nade') === 'nade';
     this.corrector = nade.corrector(options);
     this.matrixAutoUpdate = false;
     this.visible = false;
@@ -79,7 +90,19 @@ export class CorrectedHand extends Group<WebXRSpaceEventMap> {
       joint.matrixWorldNeedsUpdate = true;
       joint.visible = true;
     });
+    if (this.flattens && result.status !== 'untracked') this.flatten(this.side, result.joints, touching);
     return this.result = result;
+  }
+
+  /** Models come when they are loaded, and go with the tracked hand. */
+  private flatten(side: Side, joints: Hand, touching: Scene | Surface | null): void {
+    const mesh = this.getObjectByProperty('isSkinnedMesh', true) as SkinnedMesh | undefined;
+    if (mesh !== this.skin?.original) {
+      this.skin?.destroy();
+      this.skin = mesh && isHandMesh(mesh) ? new FlattenedSkin(this.nade, mesh, side) : null;
+      if (this.skin) this.add(this.skin);
+    }
+    this.skin?.update(joints, touching);
   }
 }
 

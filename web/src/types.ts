@@ -56,6 +56,29 @@ export interface CorrectorOptions {
   feel?: Feel;
 }
 
+/** A hand that is drawn, in its bind pose, metres. */
+export interface HandMesh {
+  side: Side;
+  /** x y z of each vertex; so are the normals, which are unit. */
+  vertices: ArrayLike<number>;
+  normals: ArrayLike<number>;
+  /** Three corners of each. */
+  triangles: ArrayLike<number>;
+  /** Four joints of each vertex, as numbers in JOINT_NAMES, and what each weighs. */
+  bones: ArrayLike<number>;
+  weights: ArrayLike<number>;
+  bind: Hand;
+}
+
+export interface SkinOptions {
+  /** Where a surface stands. */
+  placement?: Placement;
+  /** The size of what is drawn over the mesh's own; 1 where left out. */
+  scale?: number;
+  /** What is touched is drawn pressed in by so much under the hand, metres; 0 where left out. */
+  give?: number;
+}
+
 /** Skin of one bone that touches. */
 export interface Contact {
   /** The object's id. */

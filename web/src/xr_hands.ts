@@ -60,6 +60,8 @@ export class XRHands {
   private own: XRReferenceSpace | null = null;
   private asking = false;
   private now: {frame: XRFrame; timeMs: number} | null = null;
+  /** Where a space was last: engines ask for all joints of a hand in the same one. */
+  private placed: {space: XRSpace; own: XRReferenceSpace; timeMs: number; pose: Pose | null} | null = null;
 
   /** @internal */
   constructor(nade: Nade, {touching = null, space = 'local-floor', ...options}: XRHandsOptions) {
@@ -197,12 +199,21 @@ export class XRHands {
     const joint = this.jointOf(frame, space);
     const from = this.jointOf(frame, base);
     if (!this.own || (!joint && !from)) return null;
-    const to = joint ?? poseOf(this.ask('getPose', frame, space, this.own));
-    const at = from ?? poseOf(this.ask('getPose', frame, base, this.own));
+    const to = joint ?? this.placeOf(frame, space, this.own);
+    const at = from ?? this.placeOf(frame, base, this.own);
     if (!to || !at) return null;
     const back = inverse(at.rotation);
     return {rotation: multiply(back, to.rotation),
             position: rotate(back, minus(to.position, at.position))};
+  }
+
+  private placeOf(frame: XRFrame, space: XRSpace, own: XRReferenceSpace): Pose | null {
+    const {placed} = this;
+    const timeMs = this.now?.frame === frame ? this.now.timeMs : null;
+    if (placed?.space === space && placed.own === own && placed.timeMs === timeMs) return placed.pose;
+    const pose = poseOf(this.ask('getPose', frame, space, own));
+    this.placed = timeMs === null ? null : {space, own, timeMs, pose};
+    return pose;
   }
 
   /** A corrected joint in the space of the objects; null for what is none. */

@@ -44,6 +44,10 @@ test('wrong arguments are NadeErrors, in words', () => {
   fails(() => corrector.update('right', hand.slice(1), null, 0), 'argument', /joints/);
   fails(() => corrector.update('right', undefined, null, 0), 'argument', /joints/);
   fails(() => corrector.update('right', hand, null, NaN), 'argument', /timeMs/);
+  const none = {side: 'right', vertices: [], normals: [], triangles: [], bones: [], weights: [], bind: hand};
+  fails(() => nade.skin(none), 'argument', /vertex_count: expected at least 1/);
+  fails(() => nade.skin({...none, side: 'top'}), 'argument', /side/);
+  fails(() => nade.skin({...none, normals: [1]}), 'argument', /normals: expected 0 numbers, found 1/);
   fails(() => nade.plane().closestPoint([0, NaN, 0]), 'argument', /query/);
 });
 

@@ -1,15 +1,17 @@
 // A fresh project into which the packed package is installed, as a user does it, and a browser.
-import {execFileSync, spawn} from 'node:child_process';
-import {mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
-import {rm} from 'node:fs/promises';
+import {execFileSync} from 'node:child_process';
+import {existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {createServer} from 'node:http';
 import {tmpdir} from 'node:os';
-import {join} from 'node:path';
+import {delimiter, join} from 'node:path';
 import {fileURLToPath} from 'node:url';
+
+import {chromium} from 'playwright-core';
 
 const folder = fileURLToPath(new URL('..', import.meta.url));
 const BROWSERS = ['chromium', 'chromium-browser', 'google-chrome'];
-const LONGEST_MS = 60e3;
+/** A machine may have other things to do. */
+const LONGEST_MS = 180e3;
 
 /** The project's folder, and `run` for commands in it. `others` are of this package's modules. */
 export function freshProject(others = []) {
@@ -28,59 +30,40 @@ export const moduleOf = (name) => join(folder, 'node_modules', name);
 
 /** The browser of this machine, or null. */
 export function browser() {
-  return BROWSERS.find((name) => {
-    try {
-      execFileSync(name, ['--version'], {stdio: 'ignore'});
-      return true;
-    } catch {
-      return false;
-    }
-  }) ?? null;
+  const folders = (process.env.PATH ?? '').split(delimiter);
+  return BROWSERS.flatMap((name) => folders.map((place) => join(place, name))).find(existsSync) ?? null;
 }
 
-/**
- * Runs a page of a project in a browser without a display, until it sends its result:
- * `fetch('/result', {method: 'POST', body: JSON.stringify(…)})`.
- */
+/** Runs a page of a project in a browser without a display, until it calls `send(result)`. */
 export async function runInBrowser(program, project, page) {
-  const profile = mkdtempSync(join(tmpdir(), 'nade-browser-'));
-  let server;
-  let running;
+  const server = createServer((request, response) => {
+    const path = new URL(request.url, 'http://localhost').pathname;
+    const type = {js: 'text/javascript', wasm: 'application/wasm'}[path.split('.').pop()];
+    try {
+      const content = path === '/' ? page : readFileSync(join(project, path));
+      response.writeHead(200, {'content-type': type ?? 'text/html'}).end(content);
+    } catch {
+      response.writeHead(404).end();
+    }
+  });
+  await new Promise((done) => server.listen(0, '127.0.0.1', done));
+  const running = await chromium.launch({
+    executablePath: program, timeout: LONGEST_MS,
+    args: ['--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-gpu-sandbox']});
+  let timer;
   try {
+    const tab = await running.newPage();
     return await new Promise((done, fail) => {
-      server = createServer((request, response) => {
-        const path = new URL(request.url, 'http://localhost').pathname;
-        if (request.method === 'POST') {
-          const parts = [];
-          request.on('data', (part) => parts.push(part));
-          request.on('end', () => done(JSON.parse(Buffer.concat(parts).toString())));
-          response.end();
-          return;
-        }
-        const type = {js: 'text/javascript', wasm: 'application/wasm'}[path.split('.').pop()];
-        try {
-          const content = path === '/' ? page : readFileSync(join(project, path));
-          response.writeHead(200, {'content-type': type ?? 'text/html'}).end(content);
-        } catch {
-          response.writeHead(404).end();
-        }
-      }).listen(0, '127.0.0.1', () => {
-        running = spawn(program, [
-          '--headless=new', '--no-sandbox', '--use-angle=swiftshader',
-          '--enable-unsafe-swiftshader', '--disable-gpu-sandbox', '--no-first-run',
-          `--user-data-dir=${profile}`, `http://127.0.0.1:${server.address().port}/`,
-        ], {stdio: 'ignore', detached: true});
-        running.on('exit', (code) => fail(new Error(`${program}: stopped with ${code}`)));
-        setTimeout(() => fail(new Error(`${program}: no result in ${LONGEST_MS / 1e3} s`)),
-                   LONGEST_MS).unref();
-      });
+      timer = setTimeout(() => fail(new Error(`${program}: no result in ${LONGEST_MS / 1e3} s`)), LONGEST_MS);
+      tab.on('crash', () => fail(new Error(`${program}: the page is gone`)));
+      tab.exposeFunction('send', done)
+        .then(() => tab.goto(`http://localhost:${server.address().port}/`, {timeout: LONGEST_MS}))
+        .catch(fail);
     });
   } finally {
-    const gone = running && new Promise((done) => running.on('exit', done));
-    if (running?.exitCode === null) process.kill(-running.pid, 'SIGKILL');  // and its children
-    await gone;
-    server?.closeAllConnections();
-    server?.close();
-    await rm(profile, {recursive: true, force: true, maxRetries: 5, retryDelay: 200});
+    clearTimeout(timer);
+    await running.close();
+    server.closeAllConnections();
+    server.close();
   }
 }

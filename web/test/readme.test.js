@@ -1,9 +1,12 @@
 import assert from 'node:assert/strict';
 import {readFileSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
+import {fileURLToPath} from 'node:url';
 import test from 'node:test';
 
 import {browser, freshProject, moduleOf, runInBrowser} from './project.js';
+
+const HANDS = fileURLToPath(new URL('../../build/release/share/nade/hands', import.meta.url));
 
 /** The first block of code below a heading of README.md. */
 function readmeCode(heading) {
@@ -29,7 +32,6 @@ const HEADSET = `
     device.hands.right.position.set(0.1, height, -0.3);
     return height > LOWEST;
   }
-  const send = (result) => fetch('/result', {method: 'POST', body: JSON.stringify(result)});
   addEventListener('error', ({message}) => send({failed: message}));
   addEventListener('unhandledrejection', ({reason}) => send({failed: String(reason)}));
 `;
@@ -55,15 +57,14 @@ const THREE_AFTER = `
       {requiredFeatures: ['local-floor', 'hand-tracking']}));
   const timer = setInterval(() => {
     const hand = hands.find(({result}) => result?.status === 'corrected');
-    if (lowerHand() || !hand) return;
+    const skin = hand?.children.find(({original}) => original);
+    if (lowerHand() || !skin) return;
     clearInterval(timer);
     const heights = (joints) => Object.values(joints).map((joint) => joint.position.y);
-    let spheres;
-    hand.traverse((part) => { if (part.isInstancedMesh) spheres = part; });
     requestAnimationFrame(() => send({
       tracked: heights(hand.tracked.joints), drawn: heights(hand.joints),
-      spheres: [...spheres.instanceMatrix.array].filter((_, i) => i % 16 === 13)
-                   .slice(0, spheres.count),
+      skin: [...skin.geometry.attributes.position.array].filter((_, i) => i % 3 === 1),
+      isHidden: !skin.original.visible,
       contacts: hand.result.contacts.length,
     }));
   }, 11);
@@ -79,6 +80,7 @@ test('three.js: the README’s lines, in a fresh project, draw corrected hands',
     run(moduleOf('.bin/esbuild'), 'main.js', '--bundle', '--format=esm',
         '--outfile=bundle.js');
     run('cp', 'node_modules/nade/dist/nade.wasm', '.');
+    run('cp', '-r', HANDS, 'hands');
     const page = '<!doctype html><body><script type="module" src="bundle.js"></script>';
     const result = await runInBrowser(program, project, page);
     assert.equal(result.failed, undefined);
@@ -87,7 +89,8 @@ test('three.js: the README’s lines, in a fresh project, draw corrected hands',
     assert.ok(Math.min(...result.tracked) < 0.89);
     assert.ok(Math.min(...result.drawn) > 0.895);
     assert.ok(result.contacts > 0);
-    result.spheres.forEach((y, i) => assert.ok(Math.abs(y - result.drawn[i]) < 1e-6));
+    assert.ok(result.isHidden);
+    assert.ok(Math.min(...result.skin) > 0.8995, `skin ${Math.min(...result.skin)} m high`);
   } finally {
     remove();
   }

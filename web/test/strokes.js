@@ -2,6 +2,7 @@
 import {existsSync, readFileSync} from 'node:fs';
 
 import {HAND_FLOATS, JOINT_FLOATS} from '../dist/index.js';
+import {readGlb} from '../glb.js';
 
 export const FRAMES_PER_SECOND = 90;
 
@@ -45,18 +46,9 @@ export function bumpyBall(radius = 0.12, rows = 48, columns = 64) {
 /** The dog that comes with nade, if it has been built. */
 export function dog(path = new URL('../../build/release/share/nade/dog.glb', import.meta.url)) {
   if (!existsSync(path)) return null;
-  const file = readFileSync(path);
-  const jsonBytes = file.readUInt32LE(12);
-  const gltf = JSON.parse(file.subarray(20, 20 + jsonBytes).toString());
+  const {gltf, read} = readGlb(readFileSync(path));
   const {attributes, indices} = gltf.meshes[0].primitives[0];
-  const bytes = (accessor) => {
-    const {bufferView, count, type} = gltf.accessors[accessor];
-    const {byteOffset = 0} = gltf.bufferViews[bufferView];
-    const from = file.byteOffset + 20 + jsonBytes + 8 + byteOffset;
-    return file.buffer.slice(from, from + 4 * count * (type === 'VEC3' ? 3 : 1));
-  };
-  return {vertices: new Float32Array(bytes(attributes.POSITION)),
-          triangles: new Uint32Array(bytes(indices))};
+  return {vertices: read(attributes.POSITION), triangles: read(indices)};
 }
 
 /**

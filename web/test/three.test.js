@@ -5,7 +5,8 @@ import {Bone, BoxGeometry, BufferAttribute, Group, InstancedMesh, Matrix4, Mesh,
         SkinnedMesh, SphereGeometry, Vector3} from 'three';
 
 import {JOINT_NAMES, load, NadeError} from '../dist/index.js';
-import {CorrectedHand, TouchableObjects, trianglesOf} from '../dist/three.js';
+import {CorrectedHand, FlattenedSkin, TouchableObjects, trianglesOf} from '../dist/three.js';
+import {handModel} from './hand_model.js';
 import {randomNumbers} from './strokes.js';
 
 const nade = await load();
@@ -55,6 +56,99 @@ test('a corrected hand has the joints and the events of three’s', () => {
   assert.equal(hand.visible, false);
   tracked.dispatchEvent({type: 'disconnected', data: {handedness: 'right'}});
   assert.deepEqual(events, ['right', 'gone']);
+});
+
+/** The lowest vertex of a mesh, as three draws it. */
+const lowest = (mesh) => {
+  const heights = Array.from({length: mesh.geometry.getAttribute('position').count},
+                             (_, i) => mesh.getVertexPosition(i, new Vector3()).y);
+  return Math.min(...heights);
+};
+
+/** As it is drawn once it has come down onto y = 0. */
+function pressedHand(side, table) {
+  const corrector = nade.corrector();
+  let drawn;
+  for (let i = 0; i <= 60; ++i) {
+    const height = Math.max(0.001, 0.1 - 0.003 * i);
+    const hand = nade.restHand(side).map((x, k) => (k % 8 === 5 ? x + height : x));
+    drawn = corrector.update(side, hand, table, 11 * i).joints;
+  }
+  return drawn;
+}
+
+test('flattened skin is the skinned mesh’s own, but where it is sunk', () => {
+  const table = nade.plane();
+  for (const side of ['left', 'right']) {
+    const {model, mesh, bones} = handModel(side);
+    const skin = new FlattenedSkin(nade, mesh, side);
+    assert.equal(mesh.visible, false);
+    const hand = pressedHand(side, table);
+    bones.forEach((bone) => {
+      const at = 8 * JOINT_NAMES.indexOf(bone.name);
+      bone.quaternion.fromArray(hand, at);
+      bone.position.fromArray(hand, at + 4);
+    });
+    model.updateMatrixWorld(true);
+    mesh.skeleton.update();
+    skin.update(hand, null);
+    const {position, normal, uv} = skin.geometry.attributes;
+    for (let i = 0; i < position.count; ++i) {
+      const drawn = mesh.getVertexPosition(i, new Vector3());
+      assert.ok(drawn.distanceTo(new Vector3().fromBufferAttribute(position, i)) < 1e-5);
+    }
+    assert.equal(uv, mesh.geometry.attributes.uv);
+    assert.ok(lowest(mesh) < -0.002);
+    const before = position.array.slice();
+    skin.update(hand, table);
+    assert.ok(lowest(skin) > 0.00015, `${lowest(skin)} m`);
+    position.array.forEach((y, i) => {
+      const vertex = i - i % 3;
+      if (before[vertex + 1] > 0.00201) assert.equal(y, before[i]);
+      else if (before[vertex + 1] < -0.0005) assert.ok(normal.array[vertex + 1] < -0.5);
+    });
+    skin.destroy();
+    assert.equal(mesh.visible, true);
+  }
+  const {mesh} = handModel('right');
+  mesh.skeleton.bones[3].name = 'elbow';
+  assert.throws(() => new FlattenedSkin(nade, mesh, 'right'), /expected a bone for each joint/);
+});
+
+test('a corrected hand flattens the skin of the model in it, as long as that is there', (t) => {
+  const objects = new TouchableObjects(nade);
+  const table = new Mesh(new BoxGeometry(1, 0.003, 1));  // a board of 3 mm
+  table.position.y = -0.0015;
+  objects.add(table);
+  const tracked = trackedHand(0.2);
+  const hand = new CorrectedHand(nade, tracked);
+  const plain = new CorrectedHand(nade, tracked, {flatten: false});
+  const {model, mesh} = handModel('right');
+  const other = handModel('right');
+  tracked.dispatchEvent({type: 'connected', data: {handedness: 'right', hand: {}}});
+  const times = [];
+  for (let i = 0; i < 120; ++i) {
+    if (i === 20) {  // loaded by then
+      hand.add(model);
+      plain.add(other.model);
+    }
+    objects.update();
+    tracked.set(Math.max(0.001, 0.1 - 0.003 * i));
+    const start = process.hrtime.bigint();
+    hand.update(objects.scene, 11 * i);
+    if (i > 60) times.push(Number(process.hrtime.bigint() - start) / 1e6);
+    plain.update(objects.scene, 11 * i);
+  }
+  const skin = hand.children.find((child) => child instanceof FlattenedSkin);
+  assert.equal(skin.original, mesh);
+  assert.ok(lowest(skin) > -0.0002, `${lowest(skin)} m`);
+  assert.ok(other.mesh.visible);
+  times.sort((a, b) => a - b);
+  t.diagnostic(`corrected and flattened in ${times[times.length >> 1].toFixed(2)} ms a hand`);
+  hand.remove(model);
+  hand.update(objects.scene, 2000);
+  assert.equal(mesh.visible, true);
+  assert.ok(!hand.children.includes(skin));
 });
 
 test('objects are where three has them, their parts and instances too', () => {

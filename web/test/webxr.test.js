@@ -209,6 +209,31 @@ test('installed once, and uninstalled without a trace', () => {
   assert.equal(XRSession.prototype.requestAnimationFrame, requestAnimationFrame);
 });
 
+test('a space that all joints are asked in is looked for once a frame', async () => {
+  const {getPose} = XRFrame.prototype;
+  let asked = 0;
+  XRFrame.prototype.getPose = function(space, base) {
+    if (space === viewer) ++asked;
+    return getPose.call(this, space, base);
+  };
+  const hands = correctXRHands(nade, {touching: table});
+  try {
+    const place = (now, {right}) => {
+      asked = 0;
+      const [first] = [...right.values()].map((joint) => positionOf(now.getJointPose(joint, viewer)));
+      assert.equal(asked, 1);
+      return first;
+    };
+    const before = await press(place);
+    device.position.y += 0.1;
+    assert.ok(Math.abs(away(await frame(place), before) - 0.1) < 1e-3);
+  } finally {
+    device.position.y -= 0.1;
+    hands.uninstall();
+    XRFrame.prototype.getPose = getPose;
+  }
+});
+
 test('somebody who changes XRFrame later is left in place', async () => {
   const hands = correctXRHands(nade, {touching: table});
   const {getPose} = XRFrame.prototype;

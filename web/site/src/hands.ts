@@ -5,23 +5,22 @@ import {clone} from 'three/addons/utils/SkeletonUtils.js';
 
 import {JOINT_FLOATS, JOINT_NAMES} from '../../src/index.js';
 import type {Corrector, Hand, Method, Nade, Result, Scene, Side} from '../../src/index.js';
+import {FlattenedSkin} from '../../src/three.js';
 
 export const SIDES: readonly Side[] = ['left', 'right'];
 
 /** The hands of one frame, as tracked. */
 export type TrackedHands = Partial<Record<Side, Hand>>;
 
-class DrawnHand {
+/** The tracked hand, seen through everything. */
+class GhostHand {
   private readonly bones: (THREE.Object3D | undefined)[];
 
-  constructor(readonly root: THREE.Object3D, material: THREE.Material, isGhost: boolean) {
-    root.traverse((part) => {
-      if (!(part instanceof THREE.SkinnedMesh)) return;
-      part.material = material;
-      part.frustumCulled = false;
-      part.castShadow = part.receiveShadow = !isGhost;
-      part.renderOrder = isGhost ? 1 : 0;
-    });
+  constructor(readonly root: THREE.Object3D) {
+    const mesh = skinnedMeshOf(root);
+    mesh.material = ghostly();
+    mesh.frustumCulled = false;
+    mesh.renderOrder = 1;
     root.visible = false;
     this.bones = JOINT_NAMES.map((name) => root.getObjectByName(name));
   }
@@ -33,6 +32,9 @@ class DrawnHand {
     });
   }
 }
+
+const skinnedMeshOf = (root: THREE.Object3D) =>
+  root.getObjectByProperty('isSkinnedMesh', true) as THREE.SkinnedMesh;
 
 function skin(): THREE.Material {
   return new THREE.MeshPhysicalMaterial({
@@ -76,16 +78,20 @@ export class ShownHand {
   private method: Method = 'nade';
 
   private constructor(private readonly nade: Nade, readonly side: Side,
-                      private readonly drawn: DrawnHand, private readonly ghost: DrawnHand) {
+                      private readonly drawn: FlattenedSkin, private readonly ghost: GhostHand) {
     this.corrector = nade.corrector();
   }
 
   static async load(nade: Nade, side: Side, into: THREE.Object3D): Promise<ShownHand> {
-    const {scene: drawn} = await new GLTFLoader().loadAsync(`${side}.glb`);
-    const ghost = clone(drawn);
-    into.add(drawn, ghost);
-    return new ShownHand(nade, side, new DrawnHand(drawn, skin(), false),
-                         new DrawnHand(ghost, ghostly(), true));
+    const {scene: model} = await new GLTFLoader().loadAsync(`${side}.glb`);
+    const ghost = new GhostHand(clone(model));
+    const mesh = skinnedMeshOf(model);
+    mesh.material = skin();
+    mesh.castShadow = mesh.receiveShadow = true;
+    const drawn = new FlattenedSkin(nade, mesh, side);
+    drawn.visible = false;
+    into.add(drawn, ghost.root);
+    return new ShownHand(nade, side, drawn, ghost);
   }
 
   correctBy(method: Method): void {
@@ -102,31 +108,29 @@ export class ShownHand {
     this.tracked = tracked ?? null;
     const start = performance.now();
     this.result = tracked ? this.corrector.update(this.side, tracked, touching, timeMs) : null;
+    // Only this method has flesh that gives; the others' skin is rigid.
+    if (this.result && this.result.status !== 'untracked') {
+      this.drawn.update(this.result.joints, this.method === 'nade' ? touching : null);
+    }
     return performance.now() - start;
   }
 
   draw(withGhost: boolean): void {
-    this.drawn.root.visible = this.result !== null;
+    this.drawn.visible = this.result !== null;
     this.ghost.root.visible = withGhost && this.tracked !== null;
-    if (this.result) this.drawn.show(this.result.joints);
     if (withGhost && this.tracked) this.ghost.show(this.tracked);
   }
 
   /** The skin that is drawn, by the bone that carries most of each vertex. */
   vertices(): {joint: string; point: THREE.Vector3}[] {
-    const found: {joint: string; point: THREE.Vector3}[] = [];
-    this.drawn.root.updateMatrixWorld(true);
-    this.drawn.root.traverse((part) => {
-      if (!(part instanceof THREE.SkinnedMesh)) return;
-      const {skinIndex, skinWeight, position} = part.geometry.attributes;
-      for (let i = 0; i < position.count; ++i) {
-        const most = [0, 1, 2, 3].reduce((a, b) => (
-          skinWeight.getComponent(i, b) > skinWeight.getComponent(i, a) ? b : a));
-        found.push({joint: part.skeleton.bones[skinIndex.getComponent(i, most)].name,
-                    point: part.getVertexPosition(i, new THREE.Vector3())
-                      .applyMatrix4(part.matrixWorld)});
-      }
+    const {original, geometry} = this.drawn;
+    const {skinIndex, skinWeight} = original.geometry.attributes;
+    const position = geometry.getAttribute('position');
+    return Array.from({length: position.count}, (_, i) => {
+      const most = [0, 1, 2, 3].reduce((a, b) => (
+        skinWeight.getComponent(i, b) > skinWeight.getComponent(i, a) ? b : a));
+      return {joint: original.skeleton.bones[skinIndex.getComponent(i, most)].name,
+              point: new THREE.Vector3().fromBufferAttribute(position, i)};
     });
-    return found;
   }
 }

@@ -62,7 +62,7 @@ export class Page {
     this.controls = new Controls(canvas, Object.keys(this.things), {
       settings: () => this.pointers[POINTER_SIDE].settings, view: () => stage.view,
       handAt: () => this.handAt(), dropped: (file) => void this.take(file),
-      pause: () => { if (this.replay) this.replay.playing = !this.replay.playing; }});
+      pause: () => this.replay?.toggle()});
     showReplay(() => this.replay);
     showDialogs();
     void showHeadsets((mode) => this.headset.enter(mode, () => {

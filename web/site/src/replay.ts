@@ -47,6 +47,8 @@ export class Replay {
     }
   }
 
+  toggle(): void { this.playing = !this.playing; }
+
   /** Goes on; true where it began again from the start. */
   advance(seconds: number): boolean {
     if (!this.playing) return false;

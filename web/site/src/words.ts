@@ -56,10 +56,7 @@ export const replaySpeed = () => 2 ** Number(find<HTMLInputElement>('#speed').va
 
 export function showReplay(replay: () => Replay | null): void {
   const time = find<HTMLInputElement>('#time');
-  find('#play').addEventListener('click', () => {
-    const now = replay();
-    if (now) now.playing = !now.playing;
-  });
+  find('#play').addEventListener('click', () => replay()?.toggle());
   find('#speed').addEventListener('input', () => {
     const now = replay();
     if (now) now.speed = replaySpeed();

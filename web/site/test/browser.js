@@ -8,6 +8,9 @@ import {fileURLToPath} from 'node:url';
 
 import {chromium} from 'playwright-core';
 
+import {writeGlb} from '../../glb.js';
+import {browser as chromiumHere} from '../../test/project.js';
+
 const require = createRequire(import.meta.url);
 const root = fileURLToPath(new URL('../../..', import.meta.url));
 export const built = join(root, 'build/web');
@@ -15,7 +18,7 @@ const pictures = join(built, 'pictures');
 const SIZE = {viewport: {width: 1280, height: 800}};
 
 /** A machine may have other things to do. */
-const PATIENCE_MS = 120e3;
+const PATIENCE_MS = 300e3;
 
 /** Serves the page, and opens it as often as is asked; `close` ends both. */
 export async function openBrowser() {
@@ -25,7 +28,7 @@ export async function openBrowser() {
     server.stderr.once('data', (line) => reject(new Error(String(line))));
   });
   const browser = await chromium.launch({
-    executablePath: process.env.CHROMIUM,
+    executablePath: chromiumHere(), timeout: PATIENCE_MS,
     args: ['--use-gl=angle', '--use-angle=gl-egl', '--ignore-gpu-blocklist',
            '--use-fake-device-for-media-stream',
            `--use-file-for-fake-video-capture=${join(built, 'hand.mjpeg')}`]}).catch((error) => {
@@ -66,7 +69,7 @@ export async function openBrowser() {
 }
 
 /** Asks the page again and again; gives its first answer that is something. */
-export async function until(page, question, argument, seconds = 60) {
+export async function until(page, question, argument, seconds = PATIENCE_MS / 1000) {
   for (let end = Date.now() + 1000 * seconds; Date.now() < end;) {
     const answer = await page.evaluate(question, argument);
     if (answer) return answer;
@@ -83,7 +86,7 @@ export async function frames(page, count) {
     if (window.seen < most) return false;
     window.seen = 0;
     return true;
-  }, count, 120);
+  }, count);
 }
 
 /** A headset that is none; `window.inject(side, joints)` puts a hand into the page's scene. */
@@ -141,24 +144,16 @@ export const headset = [{path: require.resolve('iwer/build/iwer.min.js')}, () =>
 
 /** A GLB of one mesh. */
 export function glb(positions, indices) {
-  const data = Buffer.concat([Buffer.from(Float32Array.from(positions).buffer),
-                              Buffer.from(Uint32Array.from(indices).buffer)]);
-  const split = 4 * positions.length;
   const axis = (k) => positions.filter((_, i) => i % 3 === k);
-  const json = Buffer.from(JSON.stringify({
+  return writeGlb({
     asset: {version: '2.0'}, scene: 0, scenes: [{nodes: [0]}], nodes: [{mesh: 0}],
     meshes: [{primitives: [{attributes: {POSITION: 0}, indices: 1}]}],
     accessors: [
       {bufferView: 0, componentType: 5126, count: positions.length / 3, type: 'VEC3',
        min: [0, 1, 2].map((k) => Math.min(...axis(k))), max: [0, 1, 2].map((k) => Math.max(...axis(k)))},
       {bufferView: 1, componentType: 5125, count: indices.length, type: 'SCALAR'}],
-    bufferViews: [{buffer: 0, byteOffset: 0, byteLength: split},
-                  {buffer: 0, byteOffset: split, byteLength: data.length - split}],
-    buffers: [{byteLength: data.length}]}));
-  const text = Buffer.concat([json, Buffer.alloc(-json.length & 3, ' ')]);
-  const number = (...values) => Buffer.from(Uint32Array.from(values).buffer);
-  return Buffer.concat([number(0x46546c67, 2, 28 + text.length + data.length),
-                        number(text.length, 0x4e4f534a), text, number(data.length, 0x004e4942), data]);
+    bufferViews: [{}, {}],
+  }, [Float32Array.from(positions), Uint32Array.from(indices)]);
 }
 
 export const CUBE = [
