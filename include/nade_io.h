@@ -14,9 +14,9 @@
  * order of XrHandJointEXT. Numbers are doubles in files and floats here.
  *
  * Files. Paths are in UTF-8; "-" is standard input or output. What is read is told from its
- * content: nade's own recordings, Leap Motion, WebXR, MediaPipe, tables of joints; plain or gzip
- * (docs/formats.md). What is written goes by the name's ending: .csv, .mcap and .glb as
- * docs/formats.md has them, nade's own recording with every other; gzip where it ends in .gz.
+ * content: nade's own recordings and all others that docs/formats.md names; plain or gzip. What is
+ * written goes by the name's ending: .csv, .mcap and .glb as docs/formats.md has them, nade's own
+ * recording with every other; gzip where it ends in .gz.
  *
  * Errors. Every function that can fail returns a nade_status: NADE_OK, or a negative code of nade.h
  * or of those below; nade_io_last_error() has the sentence, which names the argument, or the file
@@ -66,7 +66,10 @@ enum {
   NADE_IO_FORMAT_WEBXR_ACTIONS = 2,   /* action recording of a WebXR session (IWER) */
   NADE_IO_FORMAT_JOINT_TABLE = 3,     /* CSV */
   NADE_IO_FORMAT_MEDIAPIPE_HANDS = 4, /* results of MediaPipe's hand tracking */
-  NADE_IO_FORMAT_WEBXR_JOINTS = 5     /* joints that a WebXR page writes down */
+  NADE_IO_FORMAT_WEBXR_JOINTS = 5,    /* joints that a WebXR page writes down */
+  NADE_IO_FORMAT_BVH = 6,             /* motion capture */
+  NADE_IO_FORMAT_HOT3D = 7,           /* hand trajectories of that data set */
+  NADE_IO_FORMAT_UNITY_HANDS = 8      /* of Unity's XR Hand Capture */
 };
 
 /* What a frame has, added up. */

@@ -14,6 +14,9 @@ static_assert(static_cast<int>(RecordingFormat::webxr_actions) == NADE_IO_FORMAT
 static_assert(static_cast<int>(RecordingFormat::joint_table) == NADE_IO_FORMAT_JOINT_TABLE);
 static_assert(static_cast<int>(RecordingFormat::mediapipe_hands) == NADE_IO_FORMAT_MEDIAPIPE_HANDS);
 static_assert(static_cast<int>(RecordingFormat::webxr_joints) == NADE_IO_FORMAT_WEBXR_JOINTS);
+static_assert(static_cast<int>(RecordingFormat::bvh) == NADE_IO_FORMAT_BVH);
+static_assert(static_cast<int>(RecordingFormat::hot3d) == NADE_IO_FORMAT_HOT3D);
+static_assert(static_cast<int>(RecordingFormat::unity_hands) == NADE_IO_FORMAT_UNITY_HANDS);
 
 nade_io_info info_of(const RecordingReader& reader) {
   const RecordingHeader& header = reader.header();

@@ -364,6 +364,7 @@ int main(int argc, char** argv) {
   check_file("webxr_actions.json", NADE_IO_FORMAT_WEBXR_ACTIONS, 6, 11);
   check_file("mediapipe_results.json", NADE_IO_FORMAT_MEDIAPIPE_HANDS, 4, 6);
   check_file("webxr_joints.json", NADE_IO_FORMAT_WEBXR_JOINTS, 3, 5);
+  check_file("hands.bvh", NADE_IO_FORMAT_BVH, 4, 8);
   check_round_trip("both.jsonl");
   check_round_trip("both.jsonl.gz");
   check_unfinished();
