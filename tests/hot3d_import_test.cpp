@@ -130,6 +130,19 @@ TEST_F(Hot3dImport, BendsThePersonsHand) {
   expect_hands(whole.frames[1], 0.5);
 }
 
+TEST_F(Hot3dImport, ThumbHasItsBaseOnTheWayToItsKnuckleWhereItsHingesLieApart) {
+  json person = profile();
+  json& hinges = person["hand_model"]["joint_rest_positions"];
+  hinges[1][1] = hinges[1][1].get<double>() + 20.0;
+  static_cast<void>(given(kProfile, person.dump()));
+  const WholeRecording whole = read(line(1, both(0.0)));
+  ASSERT_EQ(whole.frames.size(), 1U);
+  const HandPose expected = truth(Handedness::right, 0.0);
+  const Vec3& first = expected[Joint::thumb_metacarpal].position;
+  const Vec3 base = first + 0.3 * (expected[Joint::thumb_proximal].position - first);
+  EXPECT_LT((whole.frames[0].hands[1]->pose[Joint::thumb_metacarpal].position - base).norm(), 1e-9);
+}
+
 TEST_F(Hot3dImport, AriaHasZUp) {
   static_cast<void>(given("metadata.json", R"({"headset":"Aria"})"));
   const Quat up(Eigen::AngleAxisd(90.0 * kDegree, Vec3::UnitX()));

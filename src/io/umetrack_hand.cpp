@@ -59,6 +59,17 @@ Result<UmetrackModel> model_from(const Json& profile) {
   return model;
 }
 
+/// The base of the thumb's metacarpal. Where its two hinges lie apart, as in HOT3D, neither is in
+/// it: it is put so far along the way from the first one to the knuckle that the metacarpal is as
+/// long as a person's.
+Vec3 base_of_thumb(const UmetrackModel& model) {
+  constexpr double kShareOfWay = 0.3;
+  constexpr double kApart_m = 1e-3;
+  const Vec3& first = model.hinges[0];
+  const bool apart = (model.hinges[1] - first).norm() > kApart_m;
+  return apart ? Vec3(first + kShareOfWay * (model.hinges[2] - first)) : first;
+}
+
 /// The motion of what turns about a hinge.
 Pose turned_about(const Vec3& point, const Vec3& axis, double angle_rad) {
   const double length = axis.norm();
@@ -108,7 +119,7 @@ LeapHand umetrack_hand(const UmetrackModel& model, Handedness side,
     }
     const bool is_thumb = digit_at(d) == Digit::thumb;
     LeapFinger& finger = hand.fingers[d];
-    finger.mcp = placed(is_thumb ? model.hinges[first] : motion[1].apply(model.hinges[first + 1]));
+    finger.mcp = placed(is_thumb ? base_of_thumb(model) : motion[1].apply(model.hinges[first + 1]));
     finger.pip = placed(motion[2].apply(model.hinges[first + 2]));
     finger.dip = placed(motion[3].apply(model.hinges[first + 3]));
     finger.tip = placed(motion[4].apply(model.tips[d]));
