@@ -69,6 +69,16 @@ TEST_F(CliBatch, WhatIsBrokenIsNamedAndTheRestIsDone) {
   EXPECT_FALSE(std::filesystem::exists(path("out/words.csv")));
 }
 
+TEST_F(CliBatch, MotionCaptureConvertsToTheSameBytesAtAnyTime) {
+  std::filesystem::create_directories(path("in"));
+  std::filesystem::copy_file(NADE_TEST_DATA_DIR "/hands.bvh", path("in/hands.bvh"));
+  ASSERT_EQ(nade("convert in -o out1 --ending .jsonl").status, 0);
+  ASSERT_EQ(shell("sleep 1.1; \"$NADE\" convert in -o out2 --ending .jsonl").status, 0);
+  const std::string converted = read_file(path("out1/hands.jsonl"));
+  EXPECT_EQ(converted, read_file(path("out2/hands.jsonl")));
+  EXPECT_EQ(converted.find("created"), std::string::npos);
+}
+
 TEST_F(CliBatch, WhatIsDoneIsNotDoneAgain) {
   make_folder();
   const std::string command = "correct in -o out --object sphere";

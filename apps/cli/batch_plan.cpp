@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array kEndings{".jsonl", ".json", ".csv"};
+constexpr std::array kEndings{".jsonl", ".json", ".csv", ".bvh", ".handsbin"};
 
 bool is_recording_name(const fs::path& path) {
   if (path.filename() == kJournal) return false;
@@ -159,9 +159,8 @@ Result<std::vector<BatchItem>> batch_items(const BatchOptions& options) {
   }
   if (items.empty()) {
     return Error{ErrorCode::not_found,
-                 fmt::format("{}: expected recordings (.jsonl, .json, .csv, or .gz behind one of "
-                             "them), found none",
-                             fmt::join(options.inputs, ", "))};
+                 fmt::format("{}: expected recordings ({}, or .gz behind one of them), found none",
+                             fmt::join(options.inputs, ", "), fmt::join(kEndings, ", "))};
   }
   return items;
 }
