@@ -53,15 +53,15 @@ HandPose hand_in(Handedness side, std::size_t frame) {
   return hand;
 }
 
-json four(const Quat& q) { return {{"x", q.x()}, {"y", q.y()}, {"z", q.z()}, {"w", q.w()}}; }
-json three(const Vec3& p) { return {{"x", p.x()}, {"y", p.y()}, {"z", p.z()}}; }
+json xyzw(const Quat& q) { return {{"x", q.x()}, {"y", q.y()}, {"z", q.z()}, {"w", q.w()}}; }
+json xyz(const Vec3& p) { return {{"x", p.x()}, {"y", p.y()}, {"z", p.z()}}; }
 
 using JointSpelling = std::function<json(const Pose&)>;
 
 /// As XRJointPose has it.
 json transform_of(const Pose& joint) {
   return {
-      {"transform", {{"position", three(joint.position)}, {"orientation", four(joint.rotation)}}},
+      {"transform", {{"position", xyz(joint.position)}, {"orientation", xyzw(joint.rotation)}}},
       {"radius", 0.01}};
 }
 
@@ -147,8 +147,8 @@ TEST_F(WebxrDumpImport, EverySpellingOfAJoint) {
   const std::vector<JointSpelling> spellings{
       transform_of,
       [](const Pose& joint) {
-        return json{{"position", three(joint.position)},
-                    {"orientation", four(joint.rotation)},
+        return json{{"position", xyz(joint.position)},
+                    {"orientation", xyzw(joint.rotation)},
                     {"radius", 0.01}};
       },
       [](const Pose& joint) {
@@ -159,8 +159,8 @@ TEST_F(WebxrDumpImport, EverySpellingOfAJoint) {
                     {"radius", 0.01}};
       },
       [](const Pose& joint) {
-        return json{{"position", three(joint.position)},
-                    {"rotation", four(joint.rotation)},
+        return json{{"position", xyz(joint.position)},
+                    {"rotation", xyzw(joint.rotation)},
                     {"radius", 0.01}};
       },
       [](const Pose& joint) {
