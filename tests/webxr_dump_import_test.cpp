@@ -60,9 +60,8 @@ using JointSpelling = std::function<json(const Pose&)>;
 
 /// As XRJointPose has it.
 json transform_of(const Pose& joint) {
-  return {
-      {"transform", {{"position", xyz(joint.position)}, {"orientation", xyzw(joint.rotation)}}},
-      {"radius", 0.01}};
+  return {{"transform", {{"position", xyz(joint.position)}, {"orientation", xyzw(joint.rotation)}}},
+          {"radius", 0.01}};
 }
 
 json by_name(const HandPose& hand, const JointSpelling& spelling = transform_of) {
