@@ -66,6 +66,10 @@ Result<AnySource> recognised(ByteSource source) {
   const std::string_view beginning = source.peek(kLookAhead);
   if (source.failure()) return *source.failure();
   if (io::looks_like_unity_hands(beginning)) return opened<UnityImport>(std::move(source));
+  if (io::looks_like_unity_asset(beginning)) {
+    return unknown_form(source.name(),
+                        "an asset of Unity's editor; take the .handsbin that it was made of");
+  }
   if (io::looks_like_bvh(beginning)) return opened<BvhImport>(std::move(source));
   if (io::looks_like_joint_table(beginning)) return opened<CsvImport>(std::move(source));
   const Sketch sketch = io::sketch_of(beginning);
