@@ -95,6 +95,9 @@ Result<AnySource> recognised(ByteSource source) {
   }
   // The packed form of LeapJS Playback.
   if (frames_begin.starts_with("[[")) return opened<LeapImport>(std::move(source));
+  if (sketch.find("hand_model") != nullptr) {
+    return unknown_form(source.name(), "the hand of a person of HOT3D, which its recording needs");
+  }
   if (sketch.members.empty()) return unknown_form(source.name(), "none of them");
   return unknown_form(source.name(),
                       fmt::format("an object that begins with \"{}\"", sketch.members[0].key));
