@@ -192,6 +192,10 @@ TEST_F(Hot3dImport, ManoSaysWhatToConvert) {
                        "passed on; convert umetrack_hand_pose_trajectory.jsonl"));
 }
 
+TEST_F(Hot3dImport, ThePersonsHandIsNoRecording) {
+  EXPECT_TRUE(contains(read_whole(path(kProfile)).error, "found the hand of a person of HOT3D"));
+}
+
 TEST_F(Hot3dImport, OddLines) {
   json hands = both(0.1);
   hands["0"]["joint_angles"][3] = nullptr;

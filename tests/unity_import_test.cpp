@@ -108,6 +108,11 @@ TEST_F(UnityImport, OtherVersionsSayWhatToDo) {
                        "2; write its joints as a table instead"));
 }
 
+TEST_F(UnityImport, AnAssetOfTheEditorIsNamed) {
+  EXPECT_TRUE(contains(read("%YAML 1.1\n%TAG !u! tag:unity3d.com,2011:\n--- !u!114\n").error,
+                       "an asset of Unity's editor; take the .handsbin that it was made of"));
+}
+
 TEST_F(UnityImport, WrongBytes) {
   std::string flag = header(1, "Wave", 1) + frames(1);
   flag[header(1, "Wave", 1).size() + 5] = '\7';

@@ -23,12 +23,6 @@ std::optional<double> unit_of_length(double length) {
   return metres ? 1.0 : unit_by_length(length);
 }
 
-std::string listed(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
 }  // namespace
 
 bool looks_like_bvh(std::string_view beginning) {
@@ -120,13 +114,13 @@ void BvhImport::tell_guesses() {
     warnings_.add_once(Oddity::metacarpal_missing,
                        fmt::format("{}: no metacarpals ({}); they are put where the generic hand "
                                    "has them",
-                                   name(), listed(without_metacarpal)));
+                                   name(), fmt::join(without_metacarpal, ", ")));
   }
   if (!short_of_joints.empty()) {
     warnings_.add_once(Oddity::joint_missing,
                        fmt::format("{}: joints are missing ({}); they are put in as far apart as "
                                    "in the generic hand, in a line",
-                                   name(), listed(short_of_joints)));
+                                   name(), fmt::join(short_of_joints, ", ")));
   }
 }
 

@@ -66,6 +66,10 @@ Result<AnySource> recognised(ByteSource source) {
   const std::string_view beginning = source.peek(kLookAhead);
   if (source.failure()) return *source.failure();
   if (io::looks_like_unity_hands(beginning)) return opened<UnityImport>(std::move(source));
+  if (io::looks_like_unity_asset(beginning)) {
+    return unknown_form(source.name(),
+                        "an asset of Unity's editor; take the .handsbin that it was made of");
+  }
   if (io::looks_like_bvh(beginning)) return opened<BvhImport>(std::move(source));
   if (io::looks_like_joint_table(beginning)) return opened<CsvImport>(std::move(source));
   const Sketch sketch = io::sketch_of(beginning);
@@ -91,6 +95,9 @@ Result<AnySource> recognised(ByteSource source) {
   }
   // The packed form of LeapJS Playback.
   if (frames_begin.starts_with("[[")) return opened<LeapImport>(std::move(source));
+  if (sketch.find("hand_model") != nullptr) {
+    return unknown_form(source.name(), "the hand of a person of HOT3D, which its recording needs");
+  }
   if (sketch.members.empty()) return unknown_form(source.name(), "none of them");
   return unknown_form(source.name(),
                       fmt::format("an object that begins with \"{}\"", sketch.members[0].key));

@@ -36,6 +36,12 @@ bool looks_like_unity_hands(std::string_view beginning) {
          beginning.substr(1, 3) == std::string_view("\0\0\0", 3);
 }
 
+bool looks_like_unity_asset(std::string_view beginning) {
+  constexpr std::size_t kTagWithin = 256;
+  return beginning.starts_with("%YAML") &&
+         beginning.substr(0, kTagWithin).find("unity3d.com") != std::string_view::npos;
+}
+
 Result<UnityImport> UnityImport::open(ByteSource source) {
   UnityImport import(std::move(source));
   import.header_.source = "unity-xr-hands";

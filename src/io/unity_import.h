@@ -16,6 +16,9 @@ namespace nade::io {
 /// Whether bytes begin like a recording of Unity's XR Hand Capture.
 [[nodiscard]] bool looks_like_unity_hands(std::string_view beginning);
 
+/// Whether a text begins like an asset of Unity's editor.
+[[nodiscard]] bool looks_like_unity_asset(std::string_view beginning);
+
 /// Reads recordings of Unity's XR Hand Capture (.handsbin, version 1): Unity's left-handed axes
 /// become ours.
 class UnityImport {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 
 #include "input_file.h"
@@ -13,21 +14,24 @@ namespace {
 
 /// Puts a hand beside the inputs, which angles of HOT3D bend: each digit along +X.
 bool write_hot3d_hand() {
-  std::string hinges;
-  std::string axes;
-  std::string tips;
+  std::ostringstream hinges;
+  std::ostringstream axes;
+  std::ostringstream tips;
   for (int digit = 0; digit < 5; ++digit) {
-    const std::string behind = ",0," + std::to_string(30 - 20 * digit) + "],";
-    for (const int along : {90, 90, 130, 155}) {
-      hinges += "[" + std::to_string(digit == 0 ? along / 2 : along) + behind;
-      axes += "[0,0,-1],";
+    const char* const comma = digit == 0 ? "" : ",";
+    const int aside = 30 - 20 * digit;
+    const int share = digit == 0 ? 2 : 1;  // the thumb is half as long
+    hinges << comma << '[' << 90 / share << ",0," << aside << "]";
+    for (const int along : {90, 130, 155}) {
+      hinges << ",[" << along / share << ",0," << aside << ']';
     }
-    tips += "[" + std::to_string(digit == 0 ? 90 : 180) + behind;
+    axes << comma << "[0,0,-1],[0,0,-1],[0,0,-1],[0,0,-1]";
+    tips << comma << '[' << 180 / share << ",0," << aside << ']';
   }
-  for (std::string* const list : {&hinges, &axes, &tips}) list->pop_back();
   std::ofstream(std::filesystem::temp_directory_path() / "umetrack_hand_user_profile.json")
-      << R"({"hand_model":{"joint_rest_positions":[)" << hinges << R"(],"joint_rotation_axes":[)"
-      << axes << R"(],"landmark_rest_positions":[)" << tips << "]}}";
+      << R"({"hand_model":{"joint_rest_positions":[)" << hinges.str()
+      << R"(],"joint_rotation_axes":[)" << axes.str() << R"(],"landmark_rest_positions":[)"
+      << tips.str() << "]}}";
   return true;
 }
 
