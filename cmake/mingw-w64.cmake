@@ -6,7 +6,8 @@ set(CMAKE_CXX_COMPILER x86_64-w64-mingw32-g++-posix)
 # Windows aligns stacks to 16 bytes, but GCC spills 32-byte registers there as if aligned to 32 (GCC's
 # bug 54412), which crashes now and then.
 set(CMAKE_C_FLAGS_INIT "-Wa,-muse-unaligned-vector-move")
-set(CMAKE_CXX_FLAGS_INIT "-Wa,-muse-unaligned-vector-move")
+# Several sources at a time have more sections than the usual form of object files.
+set(CMAKE_CXX_FLAGS_INIT "-Wa,-muse-unaligned-vector-move,-mbig-obj")
 # What is built needs Windows alone.
 set(CMAKE_EXE_LINKER_FLAGS_INIT -static)
 # Libraries and headers are those of Debian's packages for mingw-w64; Eigen, headers alone, is the

@@ -68,6 +68,7 @@ nade::Status check_words(const CLI::App& app) {
 
 int run(int argc, char** argv) {
   CLI::App app{"nade keeps a tracked hand on the surface it strokes.", "nade"};
+  app.allow_windows_style_options(false);  // "/work/stroke.jsonl" is a path there, too
   app.set_version_flag("--version", std::string("nade ") + NADE_VERSION);
   app.require_subcommand(1);
   nade::cli::Action action;
