@@ -252,7 +252,7 @@ test('a camera: asked for, loaded only then, a hand of a film, and gone again', 
   await picture('camera');
   t.diagnostic(`MediaPipe: ${(await page.evaluate(() => window.nadePage.camera().spentMs)).toFixed(0)} ms`);
   await choose(page, 'sources', 'pointer');
-  assert.equal(await page.evaluate(() => document.querySelector('#video').srcObject), null);
+  await until(page, () => document.querySelector('#video').srcObject === null);
 });
 
 test('none of all that asked anything of anybody else, or was an error', () => visit.done());
@@ -265,7 +265,7 @@ test('a headset that does not start, and a camera that is refused', async () => 
   const {page, done} = await browser.open({script: [...headset, refused]});
   await page.press('text=Enter VR', 'Enter');
   await said(page, /^The headset did not start: no sensors$/);
-  assert.equal((await hand(page)).status, 'corrected');
+  await until(page, () => window.nadePage.hand('right')?.status === 'corrected');
   await choose(page, 'sources', 'camera');
   await page.click('#consent [value=yes]');
   await said(page, /no camera: Permission denied/);
