@@ -24,7 +24,7 @@ export function hookOf(page: Page) {
       }
       return nearest;
     },
-    /** Of the frames since the last call, milliseconds: correcting, and all of our code but drawing. */
+    /** Of the frames since the last call, milliseconds: correcting and flattening, and all of our code but drawing. */
     spent: () => page.spent.splice(0),
     /** Of the last time that the dog's surface was refitted, milliseconds. */
     refitMs: () => page.thing.living?.refitMs ?? null,

@@ -8,8 +8,10 @@ const SECONDS = 3.6;
 const FRAME_MS = 40;
 /** Until the hand lies on the dog. */
 const BEFORE_MS = 2000;
-const SIZE = {width: 960, height: 600};
-const MIDDLE = [0.47, 0.5];
+const SIZE = {width: 1280, height: 800};
+const PIXELS = 0.75;
+/** Shares of the window. */
+const MIDDLE = [0.5, 0.43];
 const STROKE = [0.085, 0.02];
 
 const [folder] = process.argv.slice(2);
@@ -18,7 +20,7 @@ mkdirSync(folder, {recursive: true});
 
 const browser = await openBrowser();
 try {
-  const {page, done} = await browser.open({viewport: SIZE});
+  const {page, done} = await browser.open({viewport: SIZE, deviceScaleFactor: PIXELS});
   // There and back once, so that the film's end is its beginning.
   const stroke = (share) => page.mouse.move(
     SIZE.width * (MIDDLE[0] - STROKE[0] * Math.cos(2 * Math.PI * share)),
