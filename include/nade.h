@@ -87,7 +87,7 @@ enum {
 typedef int32_t nade_capability;
 enum {
   NADE_CAN_CORRECT = 0, /* this header, as of NADE_ABI_VERSION 1 */
-  NADE_CAN_RECORD = 1   /* recordings: no library has it yet */
+  NADE_CAN_RECORD = 1   /* recordings: never, a second library has them, nade_io.h */
 };
 
 typedef int32_t nade_side;
