@@ -25,6 +25,21 @@ function(nade_target target)
   endif()
 endfunction()
 
+# A shared library for C gives out nothing but what is marked for it and `map` lists.
+function(nade_c_exports target map)
+  if(MINGW)
+    # All that it needs is Windows itself.
+    target_link_options(${target} PRIVATE -static -Wl,--exclude-all-symbols -Wl,--gc-sections)
+  elseif(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang" AND UNIX AND NOT APPLE)
+    target_link_options(${target} PRIVATE "-Wl,--version-script=${map}")
+    set_property(TARGET ${target} PROPERTY LINK_DEPENDS "${map}")
+    # A sanitizer's runtime is the program's, and not all of it is there when this is linked.
+    if(NOT NADE_SANITIZE)
+      target_link_options(${target} PRIVATE -Wl,--exclude-libs,ALL -Wl,--gc-sections -Wl,-z,defs)
+    endif()
+  endif()
+endfunction()
+
 # A program in C, as those have it who use nade.h.
 function(nade_c_program target)
   set_target_properties(${target} PROPERTIES C_STANDARD 99 C_EXTENSIONS OFF)

@@ -6,7 +6,7 @@ import ctypes
 import dataclasses
 import enum
 import threading
-from typing import Any, Optional, Union
+from typing import Any, Callable, ClassVar, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -98,8 +98,13 @@ def _one_hand(given: Any) -> npt.NDArray[Any]:
     return np.ascontiguousarray(given)
 
 
-class _HandMesh:
-    """A hand mesh as the library has it, and the arrays that it points to."""
+class _MeasuredMesh(Owner):
+    """What the library makes of a hand mesh, which `Flesh` describes."""
+
+    side: str
+    vertex_count: int
+    _create: ClassVar[Callable[..., int]]
+    _destroy: ClassVar[Callable[[int], int]]
 
     def __init__(
         self,
@@ -118,9 +123,7 @@ class _HandMesh:
         on = numbers("bones", bones, (len(at), 4), np.uint8)
         shares = numbers("weights", weights, (len(at), 4), np.float32)
         pose = _one_hand(bind)
-        self.arrays = (at, up, corners, on, shares, pose)
-        self.vertex_count = len(at)
-        self.struct = _library.HandMesh(
+        mesh = _library.HandMesh(
             size=ctypes.sizeof(_library.HandMesh),
             side=number_of_side,
             vertex_count=len(at),
@@ -132,9 +135,13 @@ class _HandMesh:
             weights=shares.ctypes.data,
             bind=pose.ctypes.data,
         )
+        self._own(self._create, self._destroy, ctypes.byref(mesh))
+        self.side = side
+        self.vertex_count = len(at)
+        self._lock = threading.Lock()
 
 
-class Flesh(Owner):
+class Flesh(_MeasuredMesh):
     """What can touch of a hand that you draw yourself: its skin, measured once.
 
     The mesh is in its bind pose, metres: `vertices` and unit `normals` (V, 3), `triangles` (T, 3),
@@ -142,47 +149,18 @@ class Flesh(Owner):
     a fraction of a second.
     """
 
-    side: str
-
-    def __init__(
-        self,
-        side: str,
-        vertices: npt.ArrayLike,
-        normals: npt.ArrayLike,
-        triangles: npt.ArrayLike,
-        bones: npt.ArrayLike,
-        weights: npt.ArrayLike,
-        bind: npt.NDArray[Any],
-    ) -> None:
-        mesh = _HandMesh(side, vertices, normals, triangles, bones, weights, bind)
-        self._own(library.nade_flesh_create, library.nade_flesh_destroy, ctypes.byref(mesh.struct))
-        self.side = side
+    _create = library.nade_flesh_create
+    _destroy = library.nade_flesh_destroy
 
 
-class Skin(Owner):
+class Skin(_MeasuredMesh):
     """The skin of a hand as it is drawn, flattened where its flesh is sunk in an object.
 
     The mesh as for `Flesh`. One for each hand that is drawn, and one thread at a time.
     """
 
-    side: str
-    vertex_count: int
-
-    def __init__(
-        self,
-        side: str,
-        vertices: npt.ArrayLike,
-        normals: npt.ArrayLike,
-        triangles: npt.ArrayLike,
-        bones: npt.ArrayLike,
-        weights: npt.ArrayLike,
-        bind: npt.NDArray[Any],
-    ) -> None:
-        mesh = _HandMesh(side, vertices, normals, triangles, bones, weights, bind)
-        self._own(library.nade_skin_create, library.nade_skin_destroy, ctypes.byref(mesh.struct))
-        self.side = side
-        self.vertex_count = mesh.vertex_count
-        self._lock = threading.Lock()
+    _create = library.nade_skin_create
+    _destroy = library.nade_skin_destroy
 
     def pose(
         self, joints: npt.NDArray[Any], scale: float = 1.0
