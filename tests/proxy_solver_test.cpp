@@ -41,7 +41,7 @@ class Any {
 };
 
 constexpr std::array kKinds{ContactKind::flesh, ContactKind::adhesion, ContactKind::landing,
-                            ContactKind::speed};
+                            ContactKind::speed, ContactKind::digits};
 
 /// Half of step * stiffness * step less force * step, the terms, and what is beyond the range.
 HandFreedoms slope_of(const Springs& springs, const StepRange& range,

@@ -64,10 +64,10 @@ std::size_t joints_seen(const Vec3& eye, const HandsByMethod& by_method, const O
 }
 
 /// Three-quarter and side from about the thumb's side, and from behind the wrist as its owner sees
-/// it, each from where the object, as it is in the first of the moments, hides least of the hand.
-/// The same for both methods.
+/// it, each from where the object, as it is in the first of the moments, and the floor hide least
+/// of the hand. The same for both methods.
 std::array<draw::Camera, kViews> cameras_of(std::span<const HandsByMethod> moments,
-                                            const Object& object) {
+                                            const Object& object, double floor_y) {
   Eigen::AlignedBox3d box;
   const HandPose* hand = nullptr;
   for (const HandsByMethod& by_method : moments) {
@@ -90,7 +90,9 @@ std::array<draw::Camera, kViews> cameras_of(std::span<const HandsByMethod> momen
     for (const Vec3& out : outs) {
       const Vec3 from = box.center() + distance_m * out.normalized();
       std::size_t seen = 0;
-      for (const HandsByMethod& by_method : moments) seen += joints_seen(from, by_method, object);
+      for (const HandsByMethod& by_method : moments) {
+        if (from.y() > floor_y) seen += joints_seen(from, by_method, object);
+      }
       if (most && seen <= *most) continue;
       most = seen;
       eye = from;
@@ -164,7 +166,8 @@ Status draw_film(const std::string& path, double film_s, const Pair& pair, const
     moments.push_back(hands_in(played, frames[i], hands));
   }
   ObjectPlayer player(played.tracked, played.object);
-  const draw::Camera view = cameras_of(moments, player.at(middle)).front();
+  const double floor_y = studio.stage.arrange_object().floor_y;
+  const draw::Camera view = cameras_of(moments, player.at(middle), floor_y).front();
   Result<draw::FilmWriter> film =
       draw::FilmWriter::create(path, {kSheetWidth, sheet_height(1), kFilmRate});
   if (!film) return film.error();
@@ -260,7 +263,8 @@ Result<std::optional<Pair>> draw_case(const PairsPlan& plan, const SuiteCase& su
   if (!set.ok()) return set.error();
   ObjectPlayer player(played->tracked, played->object);
   const HandsByMethod shown = hands_in(*played, frame, hands);
-  const std::array<draw::Camera, kViews> views = cameras_of({&shown, 1}, player.at(frame));
+  const std::array<draw::Camera, kViews> views =
+      cameras_of({&shown, 1}, player.at(frame), studio.stage.arrange_object().floor_y);
   const std::string path = (std::filesystem::path(plan.folder) / name).string();
   const Status saved = draw::save_png(path + ".png", draw_sheet(pair, name, shown, views, studio));
   if (!saved.ok()) return saved.error();

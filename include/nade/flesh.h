@@ -57,6 +57,8 @@ struct HandFlesh {
   /// By skin point: how far the flesh gives way there, as of SkinMap. Metres, alike for hands of
   /// any size.
   std::vector<double> depth_m;
+  /// Of each phalanx, by the joint where it ends: from its middle to the nearest skin. 0 elsewhere.
+  std::array<double, kJointCount> phalanx_radius_m{};
 };
 
 /// A hand has no more skin points than this: a frame looks at each of them.

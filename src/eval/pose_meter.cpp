@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "hand/phalanx.h"
+
 namespace nade {
 namespace {
 
@@ -20,9 +22,6 @@ void raise(std::optional<double>& most, const std::optional<double>& value) {
   if (value) raise(most, *value);
 }
 
-/// The joint where a digit's first phalanx ends.
-std::size_t first_phalanx_end(Digit digit) { return index_of(joints_of(digit).metacarpal) + 2; }
-
 /// Between the metacarpals of thumb and index, in the palm's plane; none where one stands upright
 /// on it.
 std::optional<double> thumb_open_deg(const HandPose& hand) {
@@ -34,50 +33,13 @@ std::optional<double> thumb_open_deg(const HandPose& hand) {
   return std::atan2(thumb.cross(index).norm(), thumb.dot(index)) / kDegree;
 }
 
-struct Segment {
-  Vec3 start;
-  Vec3 way;
-};
-
-// Based on: Ericson. Real-Time Collision Detection. 2005, 5.1.9.
-double distance_between(const Segment& one, const Segment& other) {
-  const Vec3 between = one.start - other.start;
-  const double a = one.way.squaredNorm();
-  const double e = other.way.squaredNorm();
-  const double f = other.way.dot(between);
-  const double c = one.way.dot(between);
-  const double b = one.way.dot(other.way);
-  double s = 0.0;
-  double t = 0.0;
-  if (a > 0.0 && e > 0.0) {
-    const double determinant = a * e - b * b;
-    if (determinant > 0.0) s = std::clamp((b * f - c * e) / determinant, 0.0, 1.0);
-    t = (b * s + f) / e;
-    if (t < 0.0 || t > 1.0) {
-      t = std::clamp(t, 0.0, 1.0);
-      s = std::clamp((b * t - c) / a, 0.0, 1.0);
-    }
-  } else if (a > 0.0) {
-    s = std::clamp(-c / a, 0.0, 1.0);
-  } else if (e > 0.0) {
-    t = std::clamp(f / e, 0.0, 1.0);
-  }
-  return (between + s * one.way - t * other.way).norm();
-}
-
-Segment bone_to(const HandPose& hand, std::size_t joint) {
-  const Vec3& start = hand.joints[joint - 1].position;
-  return {start, hand.joints[joint].position - start};
-}
-
 }  // namespace
 
 PoseMeter::PoseMeter(const HandMesh& mesh, double hand_scale) {
   for (std::size_t d = 0; d < kDigitCount; ++d) {
-    const Digit digit = digit_at(d);
-    for (std::size_t end = first_phalanx_end(digit); end <= index_of(joints_of(digit).tip); ++end) {
-      const Segment bone = bone_to(mesh.bind, end);
-      const Vec3 middle = bone.start + 0.5 * bone.way;
+    for (std::size_t end = first_phalanx(digit_at(d)); end <= last_phalanx(digit_at(d)); ++end) {
+      const Vec3 middle =
+          0.5 * (mesh.bind.joints[end - 1].position + mesh.bind.joints[end].position);
       double nearest_m = std::numeric_limits<double>::infinity();
       for (const Eigen::Vector3f& vertex : mesh.vertices) {
         nearest_m = std::min(nearest_m, (vertex.cast<double>() - middle).norm());
@@ -90,14 +52,12 @@ PoseMeter::PoseMeter(const HandMesh& mesh, double hand_scale) {
 double PoseMeter::overlap_m(const HandPose& hand) const {
   double deepest_m = 0.0;
   for (std::size_t d = 0; d < kDigitCount; ++d) {
-    for (std::size_t i = first_phalanx_end(digit_at(d)); i <= index_of(joints_of(digit_at(d)).tip);
-         ++i) {
-      const Segment bone = bone_to(hand, i);
-      for (std::size_t other = d + 1; other < kDigitCount; ++other) {
-        const DigitJoints joints = joints_of(digit_at(other));
-        for (std::size_t k = first_phalanx_end(digit_at(other)); k <= index_of(joints.tip); ++k) {
-          const double apart_m = distance_between(bone, bone_to(hand, k));
-          deepest_m = std::max(deepest_m, radius_m_[i] + radius_m_[k] - apart_m);
+    for (std::size_t one = first_phalanx(digit_at(d)); one <= last_phalanx(digit_at(d)); ++one) {
+      for (std::size_t e = d + 1; e < kDigitCount; ++e) {
+        const Digit digit = digit_at(e);
+        for (std::size_t other = first_phalanx(digit); other <= last_phalanx(digit); ++other) {
+          const double apart_m = nearest_of(hand, one, other).way.norm();
+          deepest_m = std::max(deepest_m, radius_m_[one] + radius_m_[other] - apart_m);
         }
       }
     }

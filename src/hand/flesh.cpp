@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "nade/assert.h"
+#include "phalanx.h"
 #include "skin_pieces.h"
 
 namespace nade {
@@ -281,6 +282,7 @@ HandFlesh measure_flesh(const HandMesh& mesh) {
     cut = cut_up(mesh, spread_vertices(mesh, apart_m));
   }
   add_skin(mesh, cut);
+  cut.flesh.phalanx_radius_m = measure_phalanges(cut.flesh, mesh.bind);
   return std::move(cut.flesh);
 }
 

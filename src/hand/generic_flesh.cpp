@@ -3,6 +3,7 @@
 
 #include "generic_flesh_table.h"
 #include "nade/flesh.h"
+#include "phalanx.h"
 
 namespace nade {
 namespace {
@@ -57,6 +58,7 @@ HandFlesh make_generic_flesh(Handedness side) {
     }
     first += pad.count;
   }
+  flesh.phalanx_radius_m = measure_phalanges(flesh, bind);
   return flesh;
 }
 

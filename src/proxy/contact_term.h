@@ -13,6 +13,7 @@ enum class ContactKind : std::uint8_t {
   adhesion,  ///< draws palmar skin to the surface
   landing,   ///< brakes skin that comes down
   speed,     ///< holds back a joint that would outrun the person
+  digits,    ///< keeps digits out of each other
 };
 
 /// One point of the hand against one plane. Its force is piecewise linear in the gap.

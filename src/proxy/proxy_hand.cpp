@@ -6,6 +6,7 @@
 #include "contact_finder.h"
 #include "coupling.h"
 #include "deformation.h"
+#include "digit_contact.h"
 #include "friction.h"
 #include "hand/posed_hand.h"
 #include "hand/step.h"
@@ -237,6 +238,9 @@ void ProxyFrame::settle() {
   for (int round = 0; round < rounds; ++round) {
     found_ = find_contacts(search_, posed_, state_);
     if (state_.terms.empty() && is_none(correction_)) break;
+    // In the air, and where the hand is found anew, a finger comes home whatever is in between.
+    const double firmness = found_anew_ ? 0.0 : 1.0 - in_air();
+    keep_digits_apart(model_, search_.flesh, posed_, search_.reach_m, firmness, state_.terms);
     if (round == 0 && !found_anew_ && !found_.pull.isZero()) look_along();
     take_step(posed_, round);
     if (found_anew_) search_.deepest_m = found_.deepest_m;
@@ -325,7 +329,7 @@ StepRange ProxyFrame::range_at(int round) const {
 bool ProxyFrame::is_pushed(const HandFreedoms& step) const {
   return !found_.even_pull.isZero() ||
          std::any_of(state_.terms.begin(), state_.terms.end(), [&](const ContactTerm& term) {
-           return term.kind != ContactKind::speed &&
+           return term.kind != ContactKind::speed && term.kind != ContactKind::digits &&
                   term.force_at(gap_after(term.row, step)) != 0.0;
          });
 }
