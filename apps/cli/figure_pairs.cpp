@@ -33,7 +33,8 @@ constexpr int kPairHeader = kInsetHeight + 2 * kPairGap;
 constexpr int kSheetWidth = 2 * kPanelWidth + 3 * kPairGap;
 constexpr int kViews = 3;
 constexpr double kFilmRate = 30.0;
-constexpr std::size_t kMomentsOfView = 8;  ///< of a film, that its view is chosen by
+constexpr std::size_t kMomentsOfView = 8;         ///< of a film, that its view is chosen by
+constexpr std::int64_t kFollow_ns = 250'000'000;  ///< before and after, that it is steadied over
 constexpr double kPairView = 26.0 * kDegree;
 constexpr double kAspect = static_cast<double>(kPanelWidth) / kPanelHeight;
 
@@ -65,12 +66,14 @@ std::size_t joints_seen(const Vec3& eye, const HandsByMethod& by_method, const O
 
 /// Three-quarter and side from about the thumb's side, and from behind the wrist as its owner sees
 /// it, each from where the object, as it is in the first of the moments, and the floor hide least
-/// of the hand. The same for both methods.
+/// of the hand. They look at it where it is in that moment. The same for both methods.
 std::array<draw::Camera, kViews> cameras_of(std::span<const HandsByMethod> moments,
                                             const Object& object, double floor_y) {
-  Eigen::AlignedBox3d box;
+  std::vector<Eigen::AlignedBox3d> boxes;
+  double largest_m = 0.0;
   const HandPose* hand = nullptr;
   for (const HandsByMethod& by_method : moments) {
+    Eigen::AlignedBox3d& box = boxes.emplace_back();
     for (const draw::StagedHands& hands : by_method) {
       for (const auto& staged : hands) {
         if (!staged) continue;
@@ -79,25 +82,29 @@ std::array<draw::Camera, kViews> cameras_of(std::span<const HandsByMethod> momen
         for (const Pose& joint : staged->corrected.joints) box.extend(joint.position);
       }
     }
+    if (!box.isEmpty()) largest_m = std::max(largest_m, box.diagonal().norm());
   }
+  const Vec3 middle = boxes.front().center();
   const Quat palm = (*hand)[Joint::palm].rotation;
   const Vec3 thumb = palm * Vec3(hand->side == Handedness::right ? -1.0 : 1.0, 0.0, 0.0);
   const Vec3 ahead = palm * -Vec3::UnitZ();
-  const double distance_m = 0.6 * box.diagonal().norm() / std::sin(0.5 * kPairView);
+  const double distance_m = 0.6 * largest_m / std::sin(0.5 * kPairView);
   const auto best = [&](const std::array<Vec3, 4>& outs) {
-    Vec3 eye = Vec3::Zero();
+    Vec3 away = Vec3::Zero();
     std::optional<std::size_t> most;
     for (const Vec3& out : outs) {
-      const Vec3 from = box.center() + distance_m * out.normalized();
+      const Vec3 there = distance_m * out.normalized();
       std::size_t seen = 0;
-      for (const HandsByMethod& by_method : moments) {
-        if (from.y() > floor_y) seen += joints_seen(from, by_method, object);
+      for (std::size_t i = 0; i < moments.size(); ++i) {
+        if (boxes[i].isEmpty()) continue;
+        const Vec3 from = boxes[i].center() + there;
+        if (from.y() > floor_y) seen += joints_seen(from, moments[i], object);
       }
       if (most && seen <= *most) continue;
       most = seen;
-      eye = from;
+      away = there;
     }
-    return draw::looking_at(eye, box.center(), kPairView, kAspect);
+    return draw::looking_at(middle + away, middle, kPairView, kAspect);
   };
   const Vec3 back = hand->back();
   const Vec3 aside = 0.75 * thumb + 0.5 * ahead;
@@ -156,7 +163,28 @@ std::vector<std::size_t> film_frames(const std::vector<RecordedFrame>& frames, s
   return shown;
 }
 
-/// Films the time around a pair's moment, from its first view.
+/// Where the tracked palms are around a frame's time, in the mean; none where there is no hand.
+std::optional<Vec3> palms_around(const std::vector<RecordedFrame>& frames, std::size_t at) {
+  Vec3 sum = Vec3::Zero();
+  int count = 0;
+  const auto take = [&](const RecordedFrame& frame) {
+    if (std::abs(frame.time_ns - frames[at].time_ns) > kFollow_ns) return false;
+    for (const auto& hand : frame.hands) {
+      if (!hand) continue;
+      sum += hand->pose[Joint::palm].position;
+      ++count;
+    }
+    return true;
+  };
+  std::size_t after = at;
+  while (after < frames.size() && take(frames[after])) ++after;
+  std::size_t before = at;
+  while (before > 0 && take(frames[before - 1])) --before;
+  if (count == 0) return std::nullopt;
+  return sum / count;
+}
+
+/// Films the time around a pair's moment, from its first view, which follows the hand.
 Status draw_film(const std::string& path, double film_s, const Pair& pair, const std::string& name,
                  const PlayedCase& played, std::size_t middle, const DrawnHands& hands,
                  Studio& studio) {
@@ -172,11 +200,15 @@ Status draw_film(const std::string& path, double film_s, const Pair& pair, const
       draw::FilmWriter::create(path, {kSheetWidth, sheet_height(1), kFilmRate});
   if (!film) return film.error();
   CaseStager stager(played, studio.stage);
+  const std::optional<Vec3> start = palms_around(played.tracked.frames, middle);
+  draw::Camera following = view;
   for (const std::size_t frame : frames) {
     const Status set = stager.set_frame(frame);
     if (!set) return set;
+    const std::optional<Vec3> there = palms_around(played.tracked.frames, frame);
+    if (start && there) following.pose.position = view.pose.position + *there - *start;
     const Status added =
-        film->add(draw_sheet(pair, name, hands_in(played, frame, hands), {&view, 1}, studio));
+        film->add(draw_sheet(pair, name, hands_in(played, frame, hands), {&following, 1}, studio));
     if (!added) return added;
   }
   return film->finish();
