@@ -77,7 +77,7 @@ TEST(Phalanges, AreNearestWhereNoOtherPointsAreNearer) {
         nearest_m = std::min(nearest_m, (along(i, s / 200.0) - along(k, t / 200.0)).norm());
       }
     }
-    const PhalanxPair pair = nearest_of(hand, i, k);
+    const NearestPoints pair = nearest_of(hand, i, k);
     EXPECT_NEAR(pair.way.norm(), nearest_m, 1e-5);
     EXPECT_LE(pair.way.norm(), nearest_m + 1e-12);
     EXPECT_LT((along(i, pair.one_share) - along(k, pair.other_share) - pair.way).norm(), 1e-12);
@@ -85,11 +85,9 @@ TEST(Phalanges, AreNearestWhereNoOtherPointsAreNearer) {
 }
 
 TEST(Phalanges, AreAsThickAsFingersAre) {
-  for (std::size_t d = 0; d < kDigitCount; ++d) {
-    for (std::size_t i = first_phalanx(digit_at(d)); i <= last_phalanx(digit_at(d)); ++i) {
-      EXPECT_GT(generic_flesh(Handedness::right).phalanx_radius_m[i], 0.005) << i;
-      EXPECT_LT(generic_flesh(Handedness::right).phalanx_radius_m[i], 0.012) << i;
-    }
+  for (const std::size_t i : kPhalanges) {
+    EXPECT_GT(generic_flesh(Handedness::right).phalanx_radius_m[i], 0.005) << i;
+    EXPECT_LT(generic_flesh(Handedness::right).phalanx_radius_m[i], 0.012) << i;
   }
 }
 

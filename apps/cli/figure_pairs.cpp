@@ -68,7 +68,8 @@ std::size_t joints_seen(const Vec3& eye, const HandsByMethod& by_method, const O
 /// it, each from where the object, as it is in the first of the moments, and the floor hide least
 /// of the hand. They look at it where it is in that moment. The same for both methods.
 std::array<draw::Camera, kViews> cameras_of(std::span<const HandsByMethod> moments,
-                                            const Object& object, double floor_y) {
+                                            const Object& object, draw::Stage& stage) {
+  const double floor_y = stage.arrange_object().floor_y;
   std::vector<Eigen::AlignedBox3d> boxes;
   double largest_m = 0.0;
   const HandPose* hand = nullptr;
@@ -194,8 +195,7 @@ Status draw_film(const std::string& path, double film_s, const Pair& pair, const
     moments.push_back(hands_in(played, frames[i], hands));
   }
   ObjectPlayer player(played.tracked, played.object);
-  const double floor_y = studio.stage.arrange_object().floor_y;
-  const draw::Camera view = cameras_of(moments, player.at(middle), floor_y).front();
+  const draw::Camera view = cameras_of(moments, player.at(middle), studio.stage).front();
   Result<draw::FilmWriter> film =
       draw::FilmWriter::create(path, {kSheetWidth, sheet_height(1), kFilmRate});
   if (!film) return film.error();
@@ -296,7 +296,7 @@ Result<std::optional<Pair>> draw_case(const PairsPlan& plan, const SuiteCase& su
   ObjectPlayer player(played->tracked, played->object);
   const HandsByMethod shown = hands_in(*played, frame, hands);
   const std::array<draw::Camera, kViews> views =
-      cameras_of({&shown, 1}, player.at(frame), studio.stage.arrange_object().floor_y);
+      cameras_of({&shown, 1}, player.at(frame), studio.stage);
   const std::string path = (std::filesystem::path(plan.folder) / name).string();
   const Status saved = draw::save_png(path + ".png", draw_sheet(pair, name, shown, views, studio));
   if (!saved.ok()) return saved.error();

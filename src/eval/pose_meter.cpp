@@ -36,31 +36,17 @@ std::optional<double> thumb_open_deg(const HandPose& hand) {
 }  // namespace
 
 PoseMeter::PoseMeter(const HandMesh& mesh, double hand_scale) {
-  for (std::size_t d = 0; d < kDigitCount; ++d) {
-    for (std::size_t end = first_phalanx(digit_at(d)); end <= last_phalanx(digit_at(d)); ++end) {
-      const Vec3 middle =
-          0.5 * (mesh.bind.joints[end - 1].position + mesh.bind.joints[end].position);
-      double nearest_m = std::numeric_limits<double>::infinity();
-      for (const Eigen::Vector3f& vertex : mesh.vertices) {
-        nearest_m = std::min(nearest_m, (vertex.cast<double>() - middle).norm());
-      }
-      radius_m_[end] = std::isfinite(nearest_m) ? hand_scale * nearest_m : 0.0;
-    }
-  }
+  std::vector<Vec3> skin;
+  for (const Eigen::Vector3f& vertex : mesh.vertices) skin.push_back(vertex.cast<double>());
+  radius_m_ = phalanx_radii(mesh.bind, skin);
+  for (double& radius_m : radius_m_) radius_m *= hand_scale;
 }
 
 double PoseMeter::overlap_m(const HandPose& hand) const {
   double deepest_m = 0.0;
-  for (std::size_t d = 0; d < kDigitCount; ++d) {
-    for (std::size_t one = first_phalanx(digit_at(d)); one <= last_phalanx(digit_at(d)); ++one) {
-      for (std::size_t e = d + 1; e < kDigitCount; ++e) {
-        const Digit digit = digit_at(e);
-        for (std::size_t other = first_phalanx(digit); other <= last_phalanx(digit); ++other) {
-          const double apart_m = nearest_of(hand, one, other).way.norm();
-          deepest_m = std::max(deepest_m, radius_m_[one] + radius_m_[other] - apart_m);
-        }
-      }
-    }
+  for (const auto& [one, other] : kPhalanxPairs) {
+    const double apart_m = nearest_of(hand, one, other).way.norm();
+    deepest_m = std::max(deepest_m, radius_m_[one] + radius_m_[other] - apart_m);
   }
   return deepest_m;
 }

@@ -252,7 +252,7 @@ void add_patches(const HandMesh& mesh, const SkinMap& skin, const std::vector<Ve
   }
 }
 
-/// How deep the flesh is, and where the palmar skin.
+/// How deep the flesh is, how thick the phalanges, and where the palmar skin.
 void add_skin(const HandMesh& mesh, CutHand& cut) {
   const SkinMap skin = measure_skin(mesh);
   std::vector<Vec3> places;
@@ -260,6 +260,7 @@ void add_skin(const HandMesh& mesh, CutHand& cut) {
     places.push_back(position_of(mesh, vertex));
     cut.flesh.depth_m.push_back(skin.flesh_depth_m[vertex]);
   }
+  cut.flesh.phalanx_radius_m = phalanx_radii(mesh.bind, places);
   add_patches(mesh, skin, places, cut.flesh);
 }
 
@@ -282,7 +283,6 @@ HandFlesh measure_flesh(const HandMesh& mesh) {
     cut = cut_up(mesh, spread_vertices(mesh, apart_m));
   }
   add_skin(mesh, cut);
-  cut.flesh.phalanx_radius_m = measure_phalanges(cut.flesh, mesh.bind);
   return std::move(cut.flesh);
 }
 

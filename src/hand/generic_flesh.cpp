@@ -58,7 +58,9 @@ HandFlesh make_generic_flesh(Handedness side) {
     }
     first += pad.count;
   }
-  flesh.phalanx_radius_m = measure_phalanges(flesh, bind);
+  std::vector<Vec3> places;
+  for (const FleshPoint& point : flesh.skin) places.push_back(position_of(point, bind, 1.0));
+  flesh.phalanx_radius_m = phalanx_radii(bind, places);
   return flesh;
 }
 

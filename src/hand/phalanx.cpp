@@ -7,7 +7,7 @@
 namespace nade {
 
 // Based on: Ericson. Real-Time Collision Detection. 2005, 5.1.9.
-PhalanxPair nearest_of(const HandPose& hand, std::size_t one, std::size_t other) noexcept {
+NearestPoints nearest_of(const HandPose& hand, std::size_t one, std::size_t other) noexcept {
   const Vec3& one_start = hand.joints[one - 1].position;
   const Vec3& other_start = hand.joints[other - 1].position;
   const Vec3 one_way = hand.joints[one].position - one_start;
@@ -36,17 +36,13 @@ PhalanxPair nearest_of(const HandPose& hand, std::size_t one, std::size_t other)
   return {between + s * one_way - t * other_way, s, t};
 }
 
-std::array<double, kJointCount> measure_phalanges(const HandFlesh& flesh, const HandPose& bind) {
+std::array<double, kJointCount> phalanx_radii(const HandPose& hand, std::span<const Vec3> skin) {
   std::array<double, kJointCount> radius_m{};
-  for (std::size_t d = 0; d < kDigitCount; ++d) {
-    for (std::size_t end = first_phalanx(digit_at(d)); end <= last_phalanx(digit_at(d)); ++end) {
-      const Vec3 middle = 0.5 * (bind.joints[end - 1].position + bind.joints[end].position);
-      double nearest_m = std::numeric_limits<double>::infinity();
-      for (const FleshPoint& point : flesh.skin) {
-        nearest_m = std::min(nearest_m, (position_of(point, bind, 1.0) - middle).norm());
-      }
-      radius_m[end] = std::isfinite(nearest_m) ? nearest_m : 0.0;
-    }
+  for (const std::size_t end : kPhalanges) {
+    const Vec3 middle = 0.5 * (hand.joints[end - 1].position + hand.joints[end].position);
+    double nearest_m = std::numeric_limits<double>::infinity();
+    for (const Vec3& point : skin) nearest_m = std::min(nearest_m, (point - middle).norm());
+    radius_m[end] = std::isfinite(nearest_m) ? nearest_m : 0.0;
   }
   return radius_m;
 }

@@ -35,33 +35,23 @@ class Digits {
         reach_m_(reach_m),
         stiffness_(stiffness),
         terms_(terms) {
-    for (std::size_t d = 0; d < kDigitCount; ++d) {
-      for (std::size_t i = first_phalanx(digit_at(d)); i <= last_phalanx(digit_at(d)); ++i) {
-        const Vec3& start = posed.hand.joints[i - 1].position;
-        const Vec3& end = posed.hand.joints[i].position;
-        middle_[i] = 0.5 * (start + end);
-        extent_m_[i] =
-            0.5 * (end - start).norm() + model.scale * flesh.phalanx_radius_m[i] + reach_m;
-      }
+    for (const std::size_t i : kPhalanges) {
+      const Vec3& start = posed.hand.joints[i - 1].position;
+      const Vec3& end = posed.hand.joints[i].position;
+      middle_[i] = 0.5 * (start + end);
+      extent_m_[i] = 0.5 * (end - start).norm() + model.scale * flesh.phalanx_radius_m[i] + reach_m;
     }
   }
 
-  void keep_apart(Digit one, Digit other) {
-    for (std::size_t i = first_phalanx(one); i <= last_phalanx(one); ++i) {
-      for (std::size_t k = first_phalanx(other); k <= last_phalanx(other); ++k) keep_apart(i, k);
-    }
-  }
-
- private:
   void keep_apart(std::size_t one, std::size_t other) {
     const double extent_m = extent_m_[one] + extent_m_[other];
     if ((middle_[one] - middle_[other]).squaredNorm() > extent_m * extent_m) return;
     const double thick_m =
         model_.scale * (flesh_.phalanx_radius_m[one] + flesh_.phalanx_radius_m[other]);
-    const PhalanxPair drawn = nearest_of(posed_.hand, one, other);
+    const NearestPoints drawn = nearest_of(posed_.hand, one, other);
     const double apart_m = drawn.way.norm();
     if (apart_m - thick_m > 2.0 * reach_m_ || apart_m == 0.0) return;
-    const PhalanxPair tracked = nearest_of(model_.tracked, one, other);
+    const NearestPoints tracked = nearest_of(model_.tracked, one, other);
     const double tracked_m = tracked.way.norm();
     const double gap_m = apart_m - std::min(thick_m, tracked_m);
     if (gap_m > 2.0 * reach_m_ || tracked_m == 0.0) return;
@@ -74,6 +64,7 @@ class Digits {
     add(point_on(other, drawn.other_share), -normal, 0.5 * gap_m, stiffness);
   }
 
+ private:
   void add(const FleshPoint& point, const Vec3& normal, double gap_m, double stiffness) {
     if (terms_.size() == terms_.capacity()) return;
     ContactTerm& term = terms_.emplace_back();
@@ -100,11 +91,7 @@ void keep_digits_apart(const HandModel& model, const HandFlesh& flesh, const Pos
                        double reach_m, double firmness, std::vector<ContactTerm>& terms) noexcept {
   if (firmness == 0.0) return;
   Digits digits(model, flesh, posed, reach_m, firmness * kPhalanxStiffness, terms);
-  for (std::size_t one = 0; one < kDigitCount; ++one) {
-    for (std::size_t other = one + 1; other < kDigitCount; ++other) {
-      digits.keep_apart(digit_at(one), digit_at(other));
-    }
-  }
+  for (const auto& [one, other] : kPhalanxPairs) digits.keep_apart(one, other);
 }
 
 }  // namespace nade
